@@ -1,0 +1,9 @@
+// The public interface of libbrume.
+//
+//   std::vector<std::string> warnings;
+//   brume::Scene scene = brume::Scene::load("smoke.vdb", warnings);
+//   brume::render(scene).write("smoke.exr");
+#pragma once
+
+#include "brume/render.h"
+#include "brume/scene.h"

@@ -1,0 +1,48 @@
+// Rendering a scene to a picture.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "brume/scene.h"
+
+namespace brume {
+
+struct Progress {
+  double fraction = 0;            // of the whole, 0 to 1
+  double elapsed_seconds = 0;
+  double remaining_seconds = -1;  // below 0: not known yet
+};
+
+struct RenderOptions {
+  int threads = 0;  // 0: one per core
+  // Called now and then from the thread that called render; false stops the render early.
+  std::function<bool(const Progress&)> on_progress;
+};
+
+// A picture with what its file says of it.
+struct Picture {
+  int width = 0, height = 0;
+  std::vector<float> pixels;  // scene-linear Rec.709, rows from the top, three floats a pixel
+  int samples_per_pixel = 0;  // as rendered
+  bool partial = false;       // stopped early
+  double seconds = 0;
+  std::int64_t invalid_samples = 0;  // samples that were not finite and were left out
+  std::vector<std::string> warnings;
+
+  // Writes .exr, .png (sRGB) or .pfm by the suffix of `path`, whole or not at all. Throws Error.
+  void write(const std::string& path) const;
+  // Throws Error unless write(path) can be expected to work: a known suffix, and a folder that can be written to. To be
+  // called before a long render.
+  static void check_output(const std::string& path);
+
+  struct Metadata;
+  std::shared_ptr<const Metadata> metadata;
+};
+
+// Throws Error where the scene cannot be rendered (a missing volume file, say).
+Picture render(const Scene& scene, const RenderOptions& options = {});
+
+}  // namespace brume

@@ -1,0 +1,66 @@
+// Scenes: from a .pbrt file, from a volume file alone, or the built-in example.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace brume {
+
+// What every function here throws when its input is at fault. what() is ready to be shown: one or more messages with
+// file:line:column, the line and a caret.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Changes to what a scene says; what is not set stays as the scene has it.
+struct SceneOptions {
+  std::optional<int> width, height;
+  std::optional<int> samples_per_pixel;
+  std::optional<std::uint32_t> seed;
+  std::optional<std::string> integrator;
+};
+
+class Scene {
+ public:
+  // Reads a scene (.pbrt) or frames a volume (.vdb, .nvdb). Warnings, ready to be shown, are appended to `warnings`.
+  static Scene load(const std::string& path, std::vector<std::string>& warnings);
+  // A volume on its own: the grid framed by a camera, lit by sun and sky, its extinction scaled to the optical depth that
+  // framing_note() states.
+  static Scene frame_volume(const std::string& path, const std::string& grid = {});
+  // The built-in example: a procedural cloud over a ground.
+  static Scene example();
+
+  void apply(const SceneOptions& options);
+  // The scene in the scene language.
+  std::string text() const;
+  // Writes text() to a file, whole or not at all.
+  void write(const std::string& path) const;
+  // The file name that the scene's Film gives.
+  std::string output_filename() const;
+  // One line about what frame_volume chose; empty for other scenes.
+  std::string framing_note() const;
+
+  Scene(Scene&&) noexcept;
+  Scene& operator=(Scene&&) noexcept;
+  ~Scene();
+
+  struct Contents;
+  const Contents& contents() const { return *contents_; }
+
+ private:
+  explicit Scene(std::unique_ptr<Contents> contents);
+  std::unique_ptr<Contents> contents_;
+};
+
+// What a file holds, as lines to be shown: a scene's entities, or a volume file's grids.
+std::string describe_file(const std::string& path);
+
+// The version, the instruction sets that this machine offers and the one in use.
+std::string version_text();
+
+}  // namespace brume

@@ -1,0 +1,16 @@
+// SceneDescription to CompiledScene: reads the volumes that the scene names, resolves names to indices, derives what
+// rendering needs, and checks what only the whole scene shows.
+#pragma once
+
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "compiled/compiled_scene.h"
+#include "scene/description.h"
+
+namespace brume {
+
+// Throws InputError, with all errors found; warnings are appended.
+CompiledScene compile(const SceneDescription& scene, int threads, std::vector<Diagnostic>& warnings);
+
+}  // namespace brume

@@ -1,0 +1,37 @@
+// The film: what the samples of each pixel add up to.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/spectrum.h"
+#include "image/image.h"
+
+namespace brume {
+
+// Sums, sums of squares and counts, so that films of different sample ranges add. A sample contributes to one pixel only
+// (filters are importance-sampled), and a pixel is written by one thread at a time, in sample order: the film's bits do
+// not depend on the order in which tiles are rendered.
+class Film {
+ public:
+  Film(int width, int height);
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+  // Adds one sample's radiance to pixel (x, y). A sample that is not finite is counted instead and left out of the sums.
+  void add(int x, int y, const Spectrum& radiance);
+
+  // The mean of each pixel's samples; 0 where there are none.
+  Image image() const;
+  std::int64_t invalid_samples() const;
+
+ private:
+  struct Pixel {
+    double sum[channel_count] = {}, sum_squares[channel_count] = {};
+    std::int32_t count = 0, invalid = 0;
+  };
+  int width_, height_;
+  std::vector<Pixel> pixels_;
+};
+
+}  // namespace brume

@@ -1,0 +1,96 @@
+// Density look-up in a brick grid: which brick, which word, which bits.
+// Index coordinates: voxel (i, j, k) is the cube [i, i+1] x ..., its value sits at the centre i + 1/2. Outside the
+// array the value is 0. Bricks are 8^3 voxels, x fastest; the table of bricks has a border of one empty brick on every
+// side, so that indices in [-8, n + 7] need no bounds test; callers clip their rays to the grid's bounds, which lie
+// within. A brick is two words, offset and scale, then its 512 values, packed: value = offset + scale * q for 8- and
+// 16-bit q (error at most scale / 2, that is 1/510 and 1/131070 of the brick's range), or the float itself.
+
+struct BrickGrid {
+  Words table;  // first word of each brick in `bricks`; the brick at 0 is the shared empty one
+  Words bricks;
+  uint table_x;   // bricks along x, border included: the table's row
+  uint table_xy;  // bricks in a layer, border included
+  uint bits;      // 8, 16 or 32 a voxel
+};
+
+// The eight values at a dual cell's corners: v011 is the one at (x, y + 1, z + 1).
+struct Cell {
+  F v000, v100, v010, v110, v001, v101, v011, v111;
+};
+
+// The value of voxel (x, y, z).
+KERNEL F grid_voxel(BrickGrid g, I x, I y, I z) {
+  U bx = as_uint(x + 8) >> 3;
+  U by = as_uint(y + 8) >> 3;
+  U bz = as_uint(z + 8) >> 3;
+  U brick = load_u32(g.table, bz * U(g.table_xy) + by * U(g.table_x) + bx);
+  U voxel = as_uint((x & 7) | ((y & 7) << 3) | ((z & 7) << 6));
+  if (g.bits == 32u) return bits_float(load_u32(g.bricks, brick + 2u + voxel));
+  F value_offset = bits_float(load_u32(g.bricks, brick));
+  F value_scale = bits_float(load_u32(g.bricks, brick + 1u));
+  U q;
+  if (g.bits == 16u) {
+    U word = load_u32(g.bricks, brick + 2u + (voxel >> 1));
+    q = shift_right_by(word, (voxel & 1u) << 4) & 0xffffu;
+  } else {
+    U word = load_u32(g.bricks, brick + 2u + (voxel >> 2));
+    q = shift_right_by(word, (voxel & 3u) << 3) & 0xffu;
+  }
+  return fma(to_float(as_int(q)), value_scale, value_offset);
+}
+
+// The value of the voxel that holds p_index.
+KERNEL F grid_nearest(BrickGrid g, vec3 p_index) {
+  return grid_voxel(g, floor_to_int(p_index.x), floor_to_int(p_index.y), floor_to_int(p_index.z));
+}
+
+// The corners of dual cell (x, y, z), which spans the centres of voxels x and x + 1, and so on.
+KERNEL Cell grid_cell(BrickGrid g, I x, I y, I z) {
+  Cell c;
+  c.v000 = grid_voxel(g, x, y, z);
+  c.v100 = grid_voxel(g, x + 1, y, z);
+  c.v010 = grid_voxel(g, x, y + 1, z);
+  c.v110 = grid_voxel(g, x + 1, y + 1, z);
+  c.v001 = grid_voxel(g, x, y, z + 1);
+  c.v101 = grid_voxel(g, x + 1, y, z + 1);
+  c.v011 = grid_voxel(g, x, y + 1, z + 1);
+  c.v111 = grid_voxel(g, x + 1, y + 1, z + 1);
+  return c;
+}
+
+KERNEL F cell_mix(F a, F b, F f) { return fma(b - a, f, a); }
+
+// The trilinear interpolant within a cell, at fractions fx, fy, fz in [0, 1].
+KERNEL F cell_linear(Cell c, F fx, F fy, F fz) {
+  F y0 = cell_mix(cell_mix(c.v000, c.v100, fx), cell_mix(c.v010, c.v110, fx), fy);
+  F y1 = cell_mix(cell_mix(c.v001, c.v101, fx), cell_mix(c.v011, c.v111, fx), fy);
+  return cell_mix(y0, y1, fz);
+}
+
+// The trilinear interpolant of the eight values around p_index.
+KERNEL F grid_linear(BrickGrid g, vec3 p_index) {
+  F x = p_index.x - 0.5f;
+  F y = p_index.y - 0.5f;
+  F z = p_index.z - 0.5f;
+  I ix = floor_to_int(x);
+  I iy = floor_to_int(y);
+  I iz = floor_to_int(z);
+  Cell c = grid_cell(g, ix, iy, iz);
+  return cell_linear(c, x - to_float(ix), y - to_float(iy), z - to_float(iz));
+}
+
+// The mean of the trilinear interpolant over t in [t_begin, t_end] of the ray origin + t direction, all of which lies
+// in dual cell (x, y, z); p's are index coordinates less one half. Exact: the interpolant is a cubic in t there, which
+// two-point Gauss-Legendre quadrature integrates without error.
+KERNEL F cell_mean_linear(Cell c, I x, I y, I z, vec3 dual_origin, vec3 direction, F t_begin, F t_end) {
+  F middle = 0.5f * (t_begin + t_end);
+  F half_width = 0.28867513459f * (t_end - t_begin);  // 1 / (2 sqrt 3)
+  F ta = middle - half_width;
+  F tb = middle + half_width;
+  F ox = dual_origin.x - to_float(x);
+  F oy = dual_origin.y - to_float(y);
+  F oz = dual_origin.z - to_float(z);
+  F a = cell_linear(c, fma(ta, direction.x, ox), fma(ta, direction.y, oy), fma(ta, direction.z, oz));
+  F b = cell_linear(c, fma(tb, direction.x, ox), fma(tb, direction.y, oy), fma(tb, direction.z, oz));
+  return 0.5f * (a + b);
+}

@@ -1,0 +1,154 @@
+// SceneDescription: a scene as plain structs, the one thing that readers make and that compile takes. Values are checked
+// and in their final units (world units, radians nowhere: angles in degrees as scenes give them), colours are scene-linear
+// Rec.709; each entity remembers where in which file it stood.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "base/geometry.h"
+#include "base/spectrum.h"
+
+namespace brume {
+
+struct FilmDescription {
+  std::string filename = "brume.exr";
+  int width = 1280, height = 720;
+  bool save_fp16 = true;
+};
+
+struct SamplerDescription {
+  int pixel_samples = 16;
+  std::uint32_t seed = 0;
+};
+
+struct FilterDescription {
+  enum class Kind { box, gaussian } kind = Kind::gaussian;
+  float x_radius = 1.5f, y_radius = 1.5f;  // pixels
+  float sigma = 0.5f;                      // gaussian only, pixels
+};
+
+struct CameraDescription {
+  Transform world_from_camera;  // camera space: +x right, +y up, +z forward
+  double fov = 90;              // degrees across the shorter image side
+  std::array<double, 4> screen_window{};  // x0 x1 y0 y1; all 0: from the aspect of the film
+  std::string medium;                     // what the Camera directive records: the outside medium then current, or ""
+  Location location;
+};
+
+enum class Traversal { march, dda };
+enum class Placement { start, random, middle, middle_random };
+
+struct IntegratorDescription {
+  std::string name = "classic";
+  int max_depth = 5;
+  Traversal traversal = Traversal::march;
+  Placement placement = Placement::middle;
+  double step = 0;  // world units; 0 is the default of each medium
+  Location location;
+};
+
+// Extinction and scattering coefficients per world unit at density 1, already times `scale`.
+struct HomogeneousMedium {};
+
+struct UniformGridMedium {
+  std::array<int, 3> resolution{1, 1, 1};
+  Vector3 p0{0, 0, 0}, p1{1, 1, 1};
+  std::vector<float> density;  // x fastest
+};
+
+// Type "vdb" or "nanovdb": a grid from a file, read when the scene is compiled.
+struct FileMedium {
+  std::string filename;  // resolved
+  std::string grid;      // "" chooses
+};
+
+// Type "procedural".
+struct CloudMedium {
+  int size = 128;
+  std::uint32_t seed = 0;
+};
+
+struct MediumDescription {
+  std::string name;
+  Transform world_from_medium;
+  Spectrum sigma_a = constant_spectrum(1), sigma_s = constant_spectrum(1);
+  Spectrum emission;  // Le: the emitted radiance is sigma_a Le per unit of length
+  int phase = 0;      // index into phase_functions()
+  std::vector<float> phase_parameters;  // in the order of the phase function's table
+  bool linear_interpolation = true;
+  int storage_bits = 16;  // 8, 16 or 32
+  std::variant<HomogeneousMedium, UniformGridMedium, FileMedium, CloudMedium> kind;
+  Location location;
+};
+
+struct DiffuseMaterial {
+  Spectrum reflectance = constant_spectrum(0.5f);
+};
+// f = diffuse / pi + specular (shininess + 8) / (8 pi) (n.h)^shininess, and a mirror of colour `reflection`.
+struct BlinnPhongMaterial {
+  Spectrum diffuse = constant_spectrum(0.5f), specular, reflection;
+  float shininess = 32;
+};
+// No surface: the boundary of a medium.
+struct InterfaceMaterial {};
+using MaterialDescription = std::variant<DiffuseMaterial, BlinnPhongMaterial, InterfaceMaterial>;
+
+struct SphereShape {
+  double radius = 1;
+};
+struct TriangleMeshShape {
+  std::vector<Vector3> positions;
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // indices checked
+  std::vector<Vector3> normals;                         // empty or one per position
+};
+// A parallelogram: origin, origin + edge_u, origin + edge_u + edge_v, origin + edge_v.
+struct QuadShape {
+  Vector3 origin{-1, 0, 1}, edge_u{2, 0, 0}, edge_v{0, 0, -2};
+};
+// The bounds of the inside medium itself, without a surface.
+struct VolumeShape {};
+
+struct ShapeDescription {
+  Transform world_from_object;
+  bool reverse_orientation = false;  // ReverseOrientation alone; a mirroring transform flips the normal too, as pbrt's does
+  MaterialDescription material;
+  std::string inside, outside;  // media; "" is none
+  std::variant<SphereShape, TriangleMeshShape, QuadShape, VolumeShape> kind;
+  Location location;
+};
+
+struct PointLight {
+  Vector3 from;        // world
+  Spectrum intensity;  // times scale
+};
+struct DistantLight {
+  Vector3 direction_to_light;  // world, unit
+  Spectrum radiance;           // irradiance on a surface that faces it
+};
+struct InfiniteLight {
+  Spectrum radiance;
+};
+struct LightDescription {
+  std::variant<PointLight, DistantLight, InfiniteLight> kind;
+  Location location;
+};
+
+struct SceneDescription {
+  FilmDescription film;
+  SamplerDescription sampler;
+  FilterDescription filter;
+  CameraDescription camera;
+  IntegratorDescription integrator;
+  std::vector<MediumDescription> media;
+  std::vector<ShapeDescription> shapes;
+  std::vector<LightDescription> lights;
+};
+
+}  // namespace brume

@@ -1,0 +1,22 @@
+// The reader and the writer of the scene language, which is pbrt-v4's with Brume's additions (docs/scene-language.md).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/description.h"
+
+namespace brume {
+
+// Reads a scene file. All of a file's errors (at most 20) are thrown together as one InputError; warnings are appended to
+// `warnings`.
+SceneDescription read_scene(const std::string& path, std::vector<Diagnostic>& warnings);
+
+// The same from text; `name` stands for the file in messages, and relative names resolve against `folder`.
+SceneDescription read_scene_text(std::string_view text, const std::string& name, const std::string& folder,
+                                 std::vector<Diagnostic>& warnings);
+
+// The scene as text that read_scene takes; reading it gives an equal scene. Relative names in it are written as they are.
+std::string write_scene(const SceneDescription& scene);
+
+}  // namespace brume

@@ -1,0 +1,163 @@
+#include "volume/brick_grid.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace brume {
+namespace {
+
+constexpr std::size_t max_words = std::size_t{1} << 31;
+
+std::size_t words_per_brick(Storage storage) {
+  return 2 + static_cast<std::size_t>(brick_voxels) * static_cast<std::size_t>(storage) / 32;
+}
+
+// The word in the table that holds brick (x, y, z), border included.
+std::size_t table_index(const BrickGrid& grid, std::array<int, 3> brick) {
+  const auto at = [](int i) { return static_cast<std::size_t>(i) + 1; };
+  const auto row = [&](int axis) { return static_cast<std::size_t>(grid.bricks[static_cast<std::size_t>(axis)]) + 2; };
+  return (at(brick[2]) * row(1) + at(brick[1])) * row(0) + at(brick[0]);
+}
+
+// Packs values as steps of `scale` above `offset`, `bits` each, the first in the lowest bits.
+void append_packed(std::vector<std::uint32_t>& words, std::span<const float, brick_voxels> values, double offset,
+                   double scale, unsigned bits) {
+  const double levels = static_cast<double>((1u << bits) - 1);
+  const double steps_per_unit = scale > 0 ? 1 / scale : 0;
+  const unsigned per_word = 32 / bits;
+  for (unsigned i = 0; i < brick_voxels; i += per_word) {
+    std::uint32_t word = 0;
+    for (unsigned j = 0; j < per_word; ++j) {
+      const double q = std::clamp(std::nearbyint((values[i + j] - offset) * steps_per_unit), 0.0, levels);
+      word |= static_cast<std::uint32_t>(q) << (j * bits);
+    }
+    words.push_back(word);
+  }
+}
+
+}  // namespace
+
+BrickGridBuilder::BrickGridBuilder(std::array<int, 3> voxels, Storage storage) {
+  grid_.voxels = voxels;
+  grid_.storage = storage;
+  std::size_t table_words = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (voxels[axis] < 1) throw std::length_error("a grid must have at least one voxel along each axis");
+    grid_.bricks[axis] = (voxels[axis] - 1) / brick_edge + 1;
+    const std::size_t row = static_cast<std::size_t>(grid_.bricks[axis]) + 2;
+    if (row > max_words / table_words) throw std::length_error("the grid's table of bricks is too large");
+    table_words *= row;
+  }
+  grid_.table.assign(table_words, 0);
+  grid_.words.assign(words_per_brick(storage), 0);
+}
+
+void BrickGridBuilder::set_brick(std::array<int, 3> brick, std::span<const float, brick_voxels> values) {
+  std::array<int, 3> end{};  // of the part of the brick that is in the array
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    end[axis] = std::min(brick_edge, grid_.voxels[axis] - brick[axis] * brick_edge);
+  }
+  std::array<float, brick_voxels> inside{};
+  for (int z = 0; z < end[2]; ++z) {
+    for (int y = 0; y < end[1]; ++y) {
+      const auto row = static_cast<std::size_t>(z * 64 + y * 8);
+      const auto length = static_cast<std::size_t>(end[0]);
+      std::ranges::copy(values.subspan(row, length), inside.begin() + row);
+      count(values.subspan(row, length));
+    }
+  }
+
+  const auto [lo, hi] = std::ranges::minmax(inside);
+  grid_.table[table_index(grid_, brick)] = lo < hi ? append(inside, lo, hi) : constant_brick(lo);
+}
+
+void BrickGridBuilder::set_constant_brick(std::array<int, 3> brick, float value) {
+  grid_.table[table_index(grid_, brick)] = constant_brick(value);
+  sum_ += brick_voxels * static_cast<double>(value);
+  grid_.nonzero_voxels += value != 0 ? brick_voxels : 0;
+  min_ = std::min(min_, value);
+  max_ = std::max(max_, value);
+  voxels_set_ += brick_voxels;
+}
+
+std::uint32_t BrickGridBuilder::constant_brick(float value) {
+  if (value == 0) return 0;
+  const auto [known, is_new] = constant_bricks_.try_emplace(std::bit_cast<std::uint32_t>(value), 0);
+  if (is_new) {
+    std::array<float, brick_voxels> values;
+    values.fill(value);
+    known->second = append(values, value, value);
+  }
+  return known->second;
+}
+
+void BrickGridBuilder::count(std::span<const float> values) {
+  double sum = 0;
+  for (const float v : values) {
+    sum += static_cast<double>(v);
+    grid_.nonzero_voxels += v != 0;
+    min_ = std::min(min_, v);
+    max_ = std::max(max_, v);
+  }
+  sum_ += sum;
+  voxels_set_ += static_cast<std::int64_t>(values.size());
+}
+
+std::uint32_t BrickGridBuilder::append(std::span<const float, brick_voxels> values, float lo, float hi) {
+  std::vector<std::uint32_t>& words = grid_.words;
+  const std::size_t first = words.size();
+  if (first + words_per_brick(grid_.storage) > max_words) throw std::length_error("the grid's bricks are too large");
+  const unsigned bits = static_cast<unsigned>(grid_.storage);
+  if (grid_.storage == Storage::f32) {
+    words.insert(words.end(), {0, 0});
+    for (const float v : values) words.push_back(std::bit_cast<std::uint32_t>(v));
+  } else {
+    const double levels = static_cast<double>((1u << bits) - 1);
+    const float scale = static_cast<float>((static_cast<double>(hi) - static_cast<double>(lo)) / levels);
+    words.insert(words.end(), {std::bit_cast<std::uint32_t>(lo), std::bit_cast<std::uint32_t>(scale)});
+    append_packed(words, values, lo, scale, bits);
+  }
+  return static_cast<std::uint32_t>(first);
+}
+
+BrickGrid BrickGridBuilder::finish() {
+  const std::int64_t voxels = std::int64_t{grid_.voxels[0]} * grid_.voxels[1] * grid_.voxels[2];
+  const bool some_unset = voxels_set_ < voxels;  // and therefore 0
+  grid_.min_value = some_unset ? std::min(0.0f, min_) : min_;
+  grid_.max_value = some_unset ? std::max(0.0f, max_) : max_;
+  grid_.mean_value = sum_ / static_cast<double>(voxels);
+  grid_.words.shrink_to_fit();
+  return std::move(grid_);
+}
+
+BrickGrid make_brick_grid(std::array<int, 3> voxels, std::span<const float> values, Storage storage) {
+  BrickGridBuilder builder(voxels, storage);
+  const std::size_t row = static_cast<std::size_t>(voxels[0]), layer = row * static_cast<std::size_t>(voxels[1]);
+  if (values.size() != layer * static_cast<std::size_t>(voxels[2])) {
+    throw std::length_error("the number of values is not the number of voxels");
+  }
+  std::array<float, brick_voxels> brick;
+  const auto gather = [&](int bx, int by, int bz) {
+    for (int i = 0; i < brick_voxels; ++i) {
+      const int x = bx * 8 + (i & 7), y = by * 8 + ((i >> 3) & 7), z = bz * 8 + (i >> 6);
+      const bool in_array = x < voxels[0] && y < voxels[1] && z < voxels[2];
+      const auto at =
+          static_cast<std::size_t>(z) * layer + static_cast<std::size_t>(y) * row + static_cast<std::size_t>(x);
+      brick[static_cast<std::size_t>(i)] = in_array ? values[at] : 0;
+    }
+  };
+  for (int bz = 0; bz * 8 < voxels[2]; ++bz) {
+    for (int by = 0; by * 8 < voxels[1]; ++by) {
+      for (int bx = 0; bx * 8 < voxels[0]; ++bx) {
+        gather(bx, by, bz);
+        builder.set_brick({bx, by, bz}, brick);
+      }
+    }
+  }
+  return builder.finish();
+}
+
+}  // namespace brume

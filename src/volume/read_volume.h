@@ -1,0 +1,34 @@
+// Volume files: .vdb (OpenVDB) and .nvdb (NanoVDB).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "volume/volume_grid.h"
+
+namespace brume {
+
+// One grid of a file as its header tells of it, without its voxels.
+struct GridInfo {
+  std::string name;
+  std::string type;             // "float", "half", "vec3s", ...: the format's own word
+  std::string grid_class;       // "fog volume", "level set", "staggered", "unknown"
+  std::array<int, 3> voxels{};  // active bounding box
+  std::int64_t active_voxels = 0;
+  Vector3 voxel_size;
+  Box3 bounds;              // in the file's world space
+  bool renderable = false;  // a scalar float or half grid that is not a level set
+  std::string note;         // why it is not renderable, or what else to know, or ""
+};
+
+// The grids of a file. Throws InputError that names the file and what is wrong with it.
+std::vector<GridInfo> list_grids(const std::string& path);
+
+// Reads one grid. `name` empty chooses by this rule: "density"; else the only renderable grid there is; else an
+// InputError that lists the grids. Level sets, vector and integer grids are refused with a hint; densities that are not
+// finite or negative are refused with their count and the place of the first. The density is the value stored for a
+// voxel, marked active or not, as OpenVDB's and NanoVDB's own samplers take it, and 0 outside the box of the active
+// voxels. Throws InputError.
+VolumeGrid read_volume(const std::string& path, const std::string& name, Storage storage);
+
+}  // namespace brume

@@ -1,0 +1,33 @@
+# Validates SPIRV with SPIRV_VAL and looks in its disassembly for the name of every KERNEL function of the kernel files
+# in KERNEL_FOLDER, and for PLANTED, a name that a twin of this test is to miss.
+execute_process(COMMAND ${SPIRV_VAL} --target-env vulkan1.2 ${SPIRV} RESULT_VARIABLE failed)
+if(failed)
+  message(FATAL_ERROR "spirv-val rejects ${SPIRV}")
+endif()
+execute_process(COMMAND ${SPIRV_DIS} ${SPIRV} OUTPUT_VARIABLE disassembly RESULT_VARIABLE failed)
+if(failed)
+  message(FATAL_ERROR "spirv-dis fails on ${SPIRV}")
+endif()
+
+file(GLOB files ${KERNEL_FOLDER}/*.inl ${KERNEL_FOLDER}/phase/*.inl)
+list(REMOVE_ITEM files ${KERNEL_FOLDER}/vector.inl)  # GLSL has these built in
+set(functions ${PLANTED})
+foreach(file ${files})
+  file(STRINGS ${file} definitions REGEX "^KERNEL ")
+  if(NOT definitions)
+    message(FATAL_ERROR "no kernel function in ${file}")
+  endif()
+  foreach(definition ${definitions})
+    string(REGEX REPLACE "^KERNEL [A-Za-z0-9_]+ ([a-z0-9_]+)\\(.*" "\\1" function "${definition}")
+    list(APPEND functions ${function})
+  endforeach()
+endforeach()
+
+list(LENGTH functions count)
+foreach(function ${functions})
+  string(FIND "${disassembly}" "\"${function}(" found)
+  if(found EQUAL -1)
+    message(FATAL_ERROR "no ${function} in the SPIR-V: call it in kernels.comp")
+  endif()
+endforeach()
+message(STATUS "${count} kernel functions found")

@@ -1,0 +1,84 @@
+#include "volume/procedural.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "volume/grid_views.h"
+
+namespace brume {
+namespace {
+
+TEST(ProceduralCloud, IsTheSameForAnyNumberOfThreads) {
+  const VolumeGrid one = procedural_cloud({40, 3, Storage::u16}, 1);
+  for (const int threads : {2, 3, 8}) {
+    const VolumeGrid many = procedural_cloud({40, 3, Storage::u16}, threads);
+    EXPECT_EQ(one.bricks.table, many.bricks.table);
+    EXPECT_EQ(one.bricks.words, many.bricks.words);
+  }
+}
+
+TEST(ProceduralCloud, ChangesWithItsSeed) {
+  EXPECT_NE(procedural_cloud({40, 1, Storage::u16}, 2).bricks.words,
+            procedural_cloud({40, 2, Storage::u16}, 2).bricks.words);
+}
+
+TEST(ProceduralCloud, FillsAMiddlingPartOfItsBoxWithDensitiesUpToOne) {
+  for (const std::uint32_t seed : {0u, 1u, 2u}) {
+    const VolumeGrid cloud = procedural_cloud({48, seed, Storage::f32}, 2);
+    EXPECT_EQ(cloud.bricks.voxels, (std::array<int, 3>{48, 29, 48}));
+    EXPECT_GE(cloud.bricks.min_value, 0);
+    EXPECT_LE(cloud.bricks.max_value, 1);
+    EXPECT_GT(cloud.bricks.max_value, 0.9f);
+    EXPECT_GT(cloud.bricks.mean_value, 0.03);
+    EXPECT_LT(cloud.bricks.mean_value, 0.3);
+  }
+}
+
+// Voxels in use in the layer at height y of the medium's space.
+int used_at(const VolumeGrid& cloud, double height) {
+  const int n = cloud.bricks.voxels[0], y = static_cast<int>((height + 0.6) / 1.2 * cloud.bricks.voxels[1]);
+  int used = 0;
+  for (int z = 0; z < n; ++z) {
+    for (int x = 0; x < n; ++x) used += kernel::grid_voxel(kernel_view(cloud.bricks), x, y, z) > 0.1f;
+  }
+  return used;
+}
+
+TEST(ProceduralCloud, IsFlatBelowAndNarrowsUpwards) {
+  const VolumeGrid cloud = procedural_cloud({64, 0, Storage::u16}, 2);
+  EXPECT_EQ(used_at(cloud, -0.5), 0);
+  EXPECT_GT(used_at(cloud, -0.34), 600);  // a wide base a little above
+  EXPECT_GT(used_at(cloud, -0.25), 2 * used_at(cloud, 0.15));
+  EXPECT_GT(used_at(cloud, 0.15), 30);
+}
+
+// The cloud is not cut by its box.
+TEST(ProceduralCloud, EndsWithinItsBox) {
+  const VolumeGrid cloud = procedural_cloud({64, 0, Storage::u16}, 2);
+  const auto [nx, ny, nz] = cloud.bricks.voxels;
+  const kernel::BrickGrid view = kernel_view(cloud.bricks);
+  for (int z = 0; z < nz; ++z) {
+    for (int y = 0; y < ny; ++y) {
+      for (int x = 0; x < nx; ++x) {
+        const bool outermost = x == 0 || y == 0 || z == 0 || x == nx - 1 || y == ny - 1 || z == nz - 1;
+        if (outermost) {
+          ASSERT_EQ(kernel::grid_voxel(view, x, y, z), 0);
+        }
+      }
+    }
+  }
+  const Box3 box = bounds(cloud.medium_from_index, support_index(cloud, false));
+  EXPECT_NEAR(box.lo.x, -1, 1e-12);
+  EXPECT_NEAR(box.hi.z, 1, 1e-12);
+  EXPECT_NEAR(box.hi.y, 0.6, 0.5 * 2.0 / 64);
+}
+
+TEST(ProceduralCloud, AnySizeWorksWithinItsLimits) {
+  for (const int size : {1, 2, 7, 9}) EXPECT_EQ(procedural_cloud({size, 0, Storage::u8}, 2).bricks.voxels[0], size);
+  EXPECT_THROW(procedural_cloud({0, 0, Storage::u8}, 1), std::invalid_argument);
+  EXPECT_THROW(procedural_cloud({max_cloud_size + 1, 0, Storage::u8}, 1), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace brume
