@@ -9,21 +9,24 @@
 
 namespace brume {
 
-// Sums, sums of squares and counts, so that films of different sample ranges add. A sample contributes to one pixel only
-// (filters are importance-sampled), and a pixel is written by one thread at a time, in sample order: the film's bits do
-// not depend on the order in which tiles are rendered.
+// Sums, sums of squares and counts, so that films of different sample ranges add. A sample contributes to one pixel
+// only (filters are importance-sampled), and a pixel is written by one thread at a time, in sample order: the film's
+// bits do not depend on the order in which tiles are rendered.
 class Film {
  public:
   Film(int width, int height);
   int width() const { return width_; }
   int height() const { return height_; }
 
-  // Adds one sample's radiance to pixel (x, y). A sample that is not finite is counted instead and left out of the sums.
+  // Adds one sample's radiance to pixel (x, y). A sample that is not finite is counted instead and left out of the
+  // sums.
   void add(int x, int y, const Spectrum& radiance);
 
   // The mean of each pixel's samples; 0 where there are none.
   Image image() const;
   std::int64_t invalid_samples() const;
+  // The number of samples that every pixel has had at least, invalid ones included.
+  int samples_per_pixel() const;
 
  private:
   struct Pixel {

@@ -16,7 +16,7 @@ struct Image {
   std::vector<float> pixels;  // width * height * 3
 };
 
-// What a picture's file says of how it was made.
+// What a picture's file says of how it was made. A PNG holds it as text, a PFM has no place for it.
 struct ImageMetadata {
   int samples_per_pixel = 0;
   double render_time_seconds = 0;
@@ -29,11 +29,24 @@ struct ImageMetadata {
   std::string software;
 };
 
+// The suffixes that write_image knows, ready to be shown.
+constexpr const char* image_suffixes = ".exr, .png and .pfm";
+
+// Throws InputError unless `path` ends in one of them.
+void check_image_suffix(const std::string& path);
+
 // Writes .exr, .png (sRGB, 8 bits) or .pfm by the suffix of `path`, whole or not at all. Throws InputError for another
 // suffix (naming the three) and for whatever the file system refuses.
 void write_image(const std::string& path, const Image& image, const ImageMetadata& metadata);
 
-// Reads .exr (channels R, G, B) or .pfm. Throws InputError.
+// Reads .exr (channels R, G and B of a flat picture) or .pfm (a grey one gives three equal channels). Throws
+// InputError.
 Image read_image(const std::string& path);
+
+// What an .exr says of how it was made; what it does not say is as in a new ImageMetadata. Throws InputError.
+ImageMetadata read_image_metadata(const std::string& path);
+
+// The sRGB encoding (IEC 61966-2-1) of a linear value in 8 bits; what lies outside [0, 1] is clamped, NaN gives 0.
+std::uint8_t srgb_from_linear(float linear);
 
 }  // namespace brume

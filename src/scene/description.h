@@ -1,6 +1,6 @@
-// SceneDescription: a scene as plain structs, the one thing that readers make and that compile takes. Values are checked
-// and in their final units (world units, radians nowhere: angles in degrees as scenes give them), colours are scene-linear
-// Rec.709; each entity remembers where in which file it stood.
+// SceneDescription: a scene as plain structs, the one thing that readers make and that compile takes. Values are
+// checked and in their final units (world units, radians nowhere: angles in degrees as scenes give them), colours are
+// scene-linear Rec.709; each entity remembers where in which file it stood.
 #pragma once
 
 #include <array>
@@ -35,8 +35,8 @@ struct FilterDescription {
 };
 
 struct CameraDescription {
-  Transform world_from_camera;  // camera space: +x right, +y up, +z forward
-  double fov = 90;              // degrees across the shorter image side
+  Transform world_from_camera;            // camera space: +x right, +y up, +z forward
+  double fov = 90;                        // degrees across the shorter image side
   std::array<double, 4> screen_window{};  // x0 x1 y0 y1; all 0: from the aspect of the film
   std::string medium;                     // what the Camera directive records: the outside medium then current, or ""
   Location location;
@@ -79,8 +79,8 @@ struct MediumDescription {
   std::string name;
   Transform world_from_medium;
   Spectrum sigma_a = constant_spectrum(1), sigma_s = constant_spectrum(1);
-  Spectrum emission;  // Le: the emitted radiance is sigma_a Le per unit of length
-  int phase = 0;      // index into phase_functions()
+  Spectrum emission;                    // Le: the emitted radiance is sigma_a Le per unit of length
+  int phase = 0;                        // index into phase_functions()
   std::vector<float> phase_parameters;  // in the order of the phase function's table
   bool linear_interpolation = true;
   int storage_bits = 16;  // 8, 16 or 32
@@ -117,7 +117,8 @@ struct VolumeShape {};
 
 struct ShapeDescription {
   Transform world_from_object;
-  bool reverse_orientation = false;  // ReverseOrientation alone; a mirroring transform flips the normal too, as pbrt's does
+  // By ReverseOrientation alone; a transform that mirrors flips the normal too, as pbrt's does.
+  bool reverse_orientation = false;
   MaterialDescription material;
   std::string inside, outside;  // media; "" is none
   std::variant<SphereShape, TriangleMeshShape, QuadShape, VolumeShape> kind;

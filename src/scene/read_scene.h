@@ -8,15 +8,16 @@
 
 namespace brume {
 
-// Reads a scene file. All of a file's errors (at most 20) are thrown together as one InputError; warnings are appended to
-// `warnings`.
+// Reads a scene file. All of a file's errors (at most 20) are thrown together as one InputError; warnings are appended
+// to `warnings`.
 SceneDescription read_scene(const std::string& path, std::vector<Diagnostic>& warnings);
 
 // The same from text; `name` stands for the file in messages, and relative names resolve against `folder`.
 SceneDescription read_scene_text(std::string_view text, const std::string& name, const std::string& folder,
                                  std::vector<Diagnostic>& warnings);
 
-// The scene as text that read_scene takes; reading it gives an equal scene. Relative names in it are written as they are.
+// The scene as text that read_scene takes. Reading it gives an equal scene, but for the camera's matrix: the language
+// gives its inverse, so that it comes back within rounding. Relative names in it are written as they are.
 std::string write_scene(const SceneDescription& scene);
 
 }  // namespace brume

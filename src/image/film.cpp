@@ -1,0 +1,58 @@
+#include "image/film.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace brume {
+
+namespace {
+
+bool is_finite(const Spectrum& s) {
+  for (int c = 0; c < channel_count; ++c)
+    if (!std::isfinite(s[c])) return false;
+  return true;
+}
+
+}  // namespace
+
+Film::Film(int width, int height)
+    : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
+
+void Film::add(int x, int y, const Spectrum& radiance) {
+  Pixel& pixel = pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
+  if (!is_finite(radiance)) {
+    ++pixel.invalid;
+    return;
+  }
+  for (int c = 0; c < channel_count; ++c) {
+    const double value = radiance[c];
+    pixel.sum[c] += value;
+    pixel.sum_squares[c] += value * value;
+  }
+  ++pixel.count;
+}
+
+Image Film::image() const {
+  static_assert(channel_count == 3, "other spectra need a conversion to red, green and blue here");
+  Image image{width_, height_, {}};
+  image.pixels.reserve(3 * pixels_.size());
+  for (const Pixel& pixel : pixels_)
+    for (const double sum : pixel.sum)
+      image.pixels.push_back(pixel.count > 0 ? static_cast<float>(sum / pixel.count) : 0.0f);
+  return image;
+}
+
+std::int64_t Film::invalid_samples() const {
+  std::int64_t invalid = 0;
+  for (const Pixel& pixel : pixels_) invalid += pixel.invalid;
+  return invalid;
+}
+
+int Film::samples_per_pixel() const {
+  std::int32_t least = pixels_.empty() ? 0 : std::numeric_limits<std::int32_t>::max();
+  for (const Pixel& pixel : pixels_) least = std::min(least, pixel.count + pixel.invalid);
+  return least;
+}
+
+}  // namespace brume

@@ -1,0 +1,100 @@
+#include <ImathBox.h>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFloatAttribute.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfIntAttribute.h>
+#include <OpenEXR/ImfMatrixAttribute.h>
+#include <OpenEXR/ImfStringAttribute.h>
+
+#include <algorithm>
+#include <charconv>
+#include <stdexcept>
+
+#include "image/check_exr_header.h"
+#include "image/formats.h"
+
+namespace brume {
+
+namespace {
+
+class MemoryStream : public Imf::IStream {
+ public:
+  explicit MemoryStream(std::string_view bytes) : Imf::IStream(""), bytes_(bytes) {}
+  bool read(char to[], int count) override {
+    const auto size = static_cast<std::size_t>(count);
+    if (count < 0 || position_ > bytes_.size() || size > bytes_.size() - position_)
+      throw std::runtime_error("the file ends too early");
+    std::copy_n(bytes_.data() + position_, size, to);
+    position_ += size;
+    return position_ < bytes_.size();
+  }
+  std::uint64_t tellg() override { return position_; }
+  void seekg(std::uint64_t position) override { position_ = position; }
+
+ private:
+  std::string_view bytes_;
+  std::size_t position_ = 0;
+};
+
+template <class Attribute, class Value>
+void find(const Imf::Header& header, const char* name, Value& value) {
+  if (const auto* attribute = header.findTypedAttribute<Attribute>(name)) value = Value(attribute->value());
+}
+
+// From OpenEXR's matrices, which act on row vectors.
+void find_matrix(const Imf::Header& header, const char* name, std::array<std::array<double, 4>, 4>& m) {
+  const auto* attribute = header.findTypedAttribute<Imf::M44fAttribute>(name);
+  if (!attribute) return;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      m[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = static_cast<double>(attribute->value()[j][i]);
+}
+
+}  // namespace
+
+ImageMetadata decode_exr_metadata(std::string_view bytes) {
+  check_exr_header(bytes);
+  MemoryStream stream(bytes);
+  const Imf::InputFile file(stream);
+  const Imf::Header& header = file.header();
+  ImageMetadata metadata;
+  find<Imf::IntAttribute>(header, "samplesPerPixel", metadata.samples_per_pixel);
+  find<Imf::FloatAttribute>(header, "renderTimeSeconds", metadata.render_time_seconds);
+  find<Imf::IntAttribute>(header, "partial", metadata.partial);
+  find<Imf::StringAttribute>(header, "software", metadata.software);
+  find_matrix(header, "worldToCamera", metadata.camera_from_world.m);
+  find_matrix(header, "worldToNDC", metadata.ndc_from_world);
+  std::string seed;
+  find<Imf::StringAttribute>(header, "seed", seed);
+  std::from_chars(seed.data(), seed.data() + seed.size(), metadata.seed);
+  const Imf::Channel* red = header.channels().findChannel("R");
+  metadata.half = red && red->type == Imf::HALF;
+  return metadata;
+}
+
+Image decode_exr(std::string_view bytes) {
+  check_exr_header(bytes);
+  MemoryStream stream(bytes);
+  Imf::InputFile file(stream);
+  const Imath::Box2i window = file.header().dataWindow();
+  Image image{window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, {}};
+  const auto width = static_cast<std::size_t>(image.width);
+  image.pixels.resize(width * static_cast<std::size_t>(image.height) * 3);
+  Imf::FrameBuffer frame;
+  for (int c = 0; c < 3; ++c) {
+    const char* name = c == 0 ? "R" : c == 1 ? "G" : "B";
+    const Imf::Channel* channel = file.header().channels().findChannel(name);
+    if (!channel) throw std::runtime_error(std::string("it has no channel ") + name);
+    if (channel->xSampling != 1 || channel->ySampling != 1) throw std::runtime_error("its channels are subsampled");
+    frame.insert(name, Imf::Slice::Make(Imf::FLOAT, image.pixels.data() + c, window, 3 * sizeof(float),
+                                        3 * sizeof(float) * width));
+  }
+  file.setFrameBuffer(frame);
+  file.readPixels(window.min.y, window.max.y);
+  return image;
+}
+
+}  // namespace brume

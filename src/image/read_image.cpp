@@ -1,0 +1,37 @@
+#include <fmt/format.h>
+
+#include "base/diagnostics.h"
+#include "base/file.h"
+#include "image/formats.h"
+
+namespace brume {
+
+namespace {
+
+// What `decode` makes of the file's bytes; what it throws becomes an InputError.
+template <class Decode>
+auto decode_file(const std::string& path, Decode&& decode) {
+  const std::string bytes = read_file(path);
+  try {
+    return decode(bytes);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& e) {
+    throw InputError(path, fmt::format("cannot be read: {}", e.what()));
+  }
+}
+
+}  // namespace
+
+Image read_image(const std::string& path) {
+  const std::string s = suffix(path);
+  if (s != ".exr" && s != ".pfm") throw InputError(path, "pictures are read from .exr and .pfm files");
+  return decode_file(path, s == ".exr" ? decode_exr : decode_pfm);
+}
+
+ImageMetadata read_image_metadata(const std::string& path) {
+  if (suffix(path) != ".exr") throw InputError(path, "only .exr files say how they were made");
+  return decode_file(path, decode_exr_metadata);
+}
+
+}  // namespace brume

@@ -1,0 +1,134 @@
+#include "scene/colour.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace brume {
+
+namespace {
+
+constexpr double min_kelvin = 500, max_kelvin = 1e6;
+constexpr int shortest = 360, longest = 830;  // nm: what pbrt takes for visible
+
+// From CIE XYZ to linear Rec.709 with its D65 white.
+// Source: the primaries and white of ITU-R BT.709-6, table 1.3 and 1.4.
+constexpr double rec709_from_xyz[3][3] = {{3.2409699419045226, -1.5373831775700940, -0.4986107602930034},
+                                          {-0.9692436362808796, 1.8759675015077202, 0.0415550574071756},
+                                          {0.0556300796969937, -0.2039769588889765, 1.0569715142428786}};
+
+Spectrum from_xyz(const Vector3& xyz) {
+  Spectrum rgb;
+  for (int c = 0; c < 3; ++c)
+    rgb[c] = static_cast<float>(
+        std::max(0.0, rec709_from_xyz[c][0] * xyz.x + rec709_from_xyz[c][1] * xyz.y + rec709_from_xyz[c][2] * xyz.z));
+  return rgb;
+}
+
+Spectrum at_luminance_1(const Spectrum& colour) { return static_cast<float>(1 / luminance(colour)) * colour; }
+
+// A Gaussian with one width on each side of its mean.
+double lobe(double x, double mean, double below, double above) {
+  const double t = (x - mean) / (x < mean ? below : above);
+  return std::exp(-0.5 * t * t);
+}
+
+Vector3 matching_functions(double nm) {
+  return {
+      1.056 * lobe(nm, 599.8, 37.9, 31.0) + 0.362 * lobe(nm, 442.0, 16.0, 26.7) - 0.065 * lobe(nm, 501.1, 20.4, 26.2),
+      0.821 * lobe(nm, 568.8, 46.9, 40.5) + 0.286 * lobe(nm, 530.9, 16.3, 31.1),
+      1.217 * lobe(nm, 437.0, 11.8, 36.0) + 0.681 * lobe(nm, 459.0, 26.0, 13.8)};
+}
+
+// Planck's law but for a factor that does not depend on the wavelength.
+double planck(double nm, double kelvin) {
+  constexpr double second_radiation_constant = 1.438776877e7;  // nm K
+  return std::pow(nm / 560, -5) / std::expm1(second_radiation_constant / (nm * kelvin));
+}
+
+// True where the pairs wavelength, value have one value throughout.
+ColourFault constant_value(const Parameter& p, double& value) {
+  if (!p.strings.empty())
+    return {"names a spectrum; only constant spectra, such as [200 0.5 900 0.5], are read", {}, 0};
+  const std::vector<double>& v = p.numbers;
+  if (v.size() % 2 != 0)
+    return {fmt::format("takes pairs of a wavelength in nm and a value, found {} numbers", v.size()), {}, v.size() - 1};
+  for (std::size_t i = 0; i < v.size(); i += 2) {
+    if (i > 0 && v[i] <= v[i - 2])
+      return {fmt::format("must have increasing wavelengths, found {} after {}", v[i], v[i - 2]), {}, i};
+    if (v[i + 1] != v[1])
+      return {
+          fmt::format("must be constant, found {} after {}: other spectra are not read; give an rgb", v[i + 1], v[1]),
+          {},
+          i + 1};
+  }
+  value = v[1];
+  if (v.front() > shortest || v[v.size() - 2] < longest)
+    return {{},
+            fmt::format("ends within the visible range; it is taken as constant from {} to {} nm", shortest, longest),
+            0};
+  return {};
+}
+
+ColourFault rgb_colour(const Parameter& p, ColourUse use, Spectrum& colour) {
+  if (p.numbers.size() != 3) return {fmt::format("takes 3 numbers, found {}", p.numbers.size()), {}, 3};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double v = p.numbers[c];
+    if (v < 0) return {fmt::format("must not be negative, found {}", v), {}, c};
+    if (use == ColourUse::albedo && v > 1) return {fmt::format("must be from 0 to 1, found {}", v), {}, c};
+    colour[static_cast<int>(c)] = static_cast<float>(v);
+  }
+  return {};
+}
+
+ColourFault spectrum_colour(const Parameter& p, ColourUse use, Spectrum& colour) {
+  double value = 0;
+  ColourFault fault = constant_value(p, value);
+  if (!fault.message.empty()) return fault;
+  if (value < 0) return {fmt::format("must not be negative, found {}", value), {}, 1};
+  if (use == ColourUse::albedo && value > 1) return {fmt::format("must be from 0 to 1, found {}", value), {}, 1};
+  if (use != ColourUse::light)
+    colour = constant_spectrum(static_cast<float>(value));
+  else
+    colour = value > 0 ? equal_energy_white() : Spectrum{};
+  return fault;
+}
+
+ColourFault blackbody(const Parameter& p, Spectrum& colour) {
+  if (p.numbers.size() != 1)
+    return {fmt::format("takes one temperature in kelvin, found {} numbers", p.numbers.size()), {}, 1};
+  const double kelvin = p.numbers[0];
+  if (kelvin < min_kelvin || kelvin > max_kelvin)
+    return {fmt::format("must be from {} to {} kelvin, found {}", min_kelvin, max_kelvin, kelvin), {}, 0};
+  colour = blackbody_colour(kelvin);
+  return {};
+}
+
+}  // namespace
+
+double luminance(const Spectrum& colour) {
+  return 0.2126390058715104 * static_cast<double>(colour[0]) + 0.7151686787677559 * static_cast<double>(colour[1]) +
+         0.0721923153607337 * static_cast<double>(colour[2]);
+}
+
+Spectrum equal_energy_white() { return at_luminance_1(from_xyz({1, 1, 1})); }
+
+Spectrum blackbody_colour(double kelvin) {
+  Vector3 xyz;
+  for (int nm = shortest; nm <= longest; ++nm) xyz = xyz + planck(nm, kelvin) * matching_functions(nm);
+  return at_luminance_1(from_xyz((1 / xyz.y) * xyz));
+}
+
+ColourFault parameter_colour(const Parameter& p, ColourUse use, Spectrum& colour) {
+  switch (p.type) {
+    case ParameterType::rgb:
+      return rgb_colour(p, use, colour);
+    case ParameterType::spectrum:
+      return spectrum_colour(p, use, colour);
+    default:
+      return blackbody(p, colour);
+  }
+}
+
+}  // namespace brume

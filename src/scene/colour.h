@@ -1,0 +1,38 @@
+// Colours of scenes as Rec.709 triples: rgb, constant spectra and blackbodies.
+#pragma once
+
+#include <string>
+
+#include "base/spectrum.h"
+#include "scene/parameters.h"
+
+namespace brume {
+
+// Rec.709's luminance of a colour.
+// Source: ITU-R BT.709-6, section 3.2.
+double luminance(const Spectrum& colour);
+
+// The spectrum that is the same at all wavelengths, at luminance 1.
+Spectrum equal_energy_white();
+
+// The colour of a black body at a temperature in kelvin, from 500 to 1e6, at luminance 1. Below about 1900 K its blue
+// lies outside Rec.709 and is cut at 0.
+//
+// Source: Planck's law; the CIE 1931 matching functions by the fit of C. Wyman, P.-P. Sloan and P. Shirley, "Simple
+// Analytic Approximations to the CIE XYZ Color Matching Functions", JCGT 2(2), 2013, eq. 4 and table 1.
+Spectrum blackbody_colour(double kelvin);
+
+struct ColourFault {
+  std::string message;    // an error; empty: none
+  std::string warning;    // what is taken otherwise than written; empty: nothing
+  std::size_t index = 0;  // of the value at fault
+};
+
+// The colour that a parameter of type rgb, spectrum or blackbody stands for:
+//   albedo       rgb within [0, 1]; a spectrum's constant value
+//   coefficient  rgb at least 0; a spectrum's constant value
+//   light        rgb at least 0, itself; any spectrum is white and any blackbody its colour, at luminance 1, as pbrt
+//                normalises the spectra of lights
+ColourFault parameter_colour(const Parameter& parameter, ColourUse use, Spectrum& colour);
+
+}  // namespace brume

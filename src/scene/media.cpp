@@ -1,0 +1,186 @@
+// MakeNamedMedium and MediumInterface.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "kernel/phase_table.h"
+#include "scene/reader.h"
+
+namespace brume {
+
+namespace {
+
+constexpr std::int64_t max_voxels_along_axis = 65536, max_procedural_size = 2048;
+
+// The product of a factor and a colour, which must fit floats.
+Spectrum scaled(ParameterList& p, double factor, const Spectrum& colour, std::string_view what) {
+  Spectrum product;
+  for (int c = 0; c < channel_count; ++c) {
+    const double v = factor * static_cast<double>(colour[c]);
+    if (v > std::numeric_limits<float>::max()) {
+      p.error(p.place(), fmt::format("{} of {} times its scale is out of range", what, p.owner()));
+      return {};
+    }
+    product[c] = static_cast<float>(v);
+  }
+  return product;
+}
+
+void read_coefficients(ParameterList& p, MediumDescription& medium) {
+  p.refuse({"string preset"}, "is not supported yet; give sigma_a and sigma_s");
+  const double scale = p.number("scale", 1, Range::at_least(0));
+  medium.sigma_a = scaled(p, scale, p.colour("sigma_a", constant_spectrum(1), ColourUse::coefficient), "sigma_a");
+  medium.sigma_s = scaled(p, scale, p.colour("sigma_s", constant_spectrum(1), ColourUse::coefficient), "sigma_s");
+}
+
+void read_emission(ParameterList& p, MediumDescription& medium) {
+  p.rename("LeScale", "Lescale");
+  const Spectrum emission = p.colour("Le", Spectrum{}, ColourUse::light);
+  const Parameter* scale = p.find(ParameterType::float_, "Lescale");
+  double factor = 1;
+  if (scale && scale->numbers.size() > 1)
+    p.value_error(*scale, 0,
+                  fmt::format("takes one value, found {}: emission that varies in space is not supported yet",
+                              scale->numbers.size()));
+  else
+    factor = p.number("Lescale", 1, Range::at_least(0));
+  medium.emission = scaled(p, factor, emission, "Le");
+}
+
+// Fire from temperatures is left out, and the rest of the medium rendered.
+void warn_of_temperature(ParameterList& p) {
+  p.warn({"string temperaturename", "float temperatureoffset", "float temperaturecutoff", "float temperaturescale",
+          "float temperature"},
+         "has no effect: emission by temperature is not supported yet");
+}
+
+// The phase function's name and its own parameters, from the kernel's tables; without a name henyey_greenstein.
+void read_phase(ParameterList& p, MediumDescription& medium) {
+  std::vector<std::string_view> names;
+  for (const PhaseEntry& entry : phase_functions()) names.push_back(entry.table.name);
+  const int usual = phase_kind("henyey_greenstein");
+  medium.phase = static_cast<int>(p.choice("phase", names, static_cast<std::size_t>(usual)));
+  medium.phase_parameters.clear();
+  for (const PhaseParameter& parameter : phase_functions()[static_cast<std::size_t>(medium.phase)].table.parameters) {
+    if (parameter.name.empty()) break;
+    const double fallback = static_cast<double>(parameter.fallback);
+    const Range range = Range::between(static_cast<double>(parameter.lo), static_cast<double>(parameter.hi));
+    const double value = p.number(parameter.name, fallback, range);
+    const double rounded = static_cast<double>(static_cast<float>(value));
+    if (!range.holds(rounded))
+      p.value_error(*p.find(ParameterType::float_, parameter.name), 0,
+                    fmt::format("{}, found {}, which is {} as a float", range.text(), value, rounded));
+    medium.phase_parameters.push_back(static_cast<float>(value));
+  }
+}
+
+void read_grid_settings(ParameterList& p, MediumDescription& medium) {
+  medium.linear_interpolation = p.choice("interpolation", {"nearest", "linear"}, 1) == 1;
+  const std::int64_t bits = p.integer("storage", 16, 8, 32);
+  if (bits != 8 && bits != 16 && bits != 32)
+    p.value_error(*p.find(ParameterType::integer, "storage"), 0, fmt::format("must be 8, 16 or 32, found {}", bits));
+  medium.storage_bits = static_cast<int>(bits);
+}
+
+// The densities, whose number must be that of the cells.
+void read_density(ParameterList& p, UniformGridMedium& grid) {
+  p.require(ParameterType::float_, "density");
+  Parameter* density = p.find(ParameterType::float_, "density");
+  if (!density) return;
+  const std::vector<double>& values = density->numbers;
+  const std::int64_t cells = std::int64_t{grid.resolution[0]} * grid.resolution[1] * grid.resolution[2];
+  if (static_cast<std::int64_t>(values.size()) != cells) {
+    p.value_error(*density, 0,
+                  fmt::format("must have nx ny nz = {} x {} x {} = {} values, found {}", grid.resolution[0],
+                              grid.resolution[1], grid.resolution[2], cells, values.size()));
+    return;
+  }
+  const auto negative = std::find_if(values.begin(), values.end(), [](double v) { return v < 0; });
+  if (negative != values.end())
+    p.value_error(*density, static_cast<std::size_t>(negative - values.begin()),
+                  fmt::format("must not be negative, found {}", *negative));
+  grid.density.resize(values.size());
+  std::transform(values.begin(), values.end(), grid.density.begin(), [](double v) { return static_cast<float>(v); });
+  density->numbers = {};
+}
+
+UniformGridMedium read_uniform_grid(ParameterList& p) {
+  UniformGridMedium grid;
+  const char* const names[] = {"nx", "ny", "nz"};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    grid.resolution[axis] = static_cast<int>(p.integer(names[axis], 1, 1, max_voxels_along_axis));
+  const Vector3 p0 = p.triple(ParameterType::point3, "p0", {0, 0, 0});
+  const Vector3 p1 = p.triple(ParameterType::point3, "p1", {1, 1, 1});
+  for (int axis = 0; axis < 3; ++axis) {
+    grid.p0[axis] = std::min(p0[axis], p1[axis]);
+    grid.p1[axis] = std::max(p0[axis], p1[axis]);
+    if (p0[axis] == p1[axis])
+      p.error(p.place(), fmt::format("the box of {} is flat: p0 and p1 have the same {}", p.owner(), "xyz"[axis]));
+  }
+  read_density(p, grid);
+  warn_of_temperature(p);
+  return grid;
+}
+
+}  // namespace
+
+void Reader::make_named_medium() {
+  const Place name_place = tokens_.peek().place;
+  const std::string name = string_argument("a name");
+  ParameterList p = parameters(fmt::format("MakeNamedMedium \"{}\"", printable(name)), "medium");
+  if (name.empty()) messages_.error(name_place, "a medium's name must not be empty: \"\" stands for no medium");
+  p.require(ParameterType::string, "type");
+  if (!p.has(ParameterType::string, "type")) throw Abandon{};
+  std::string type = p.string("type", "");
+  if (type == "heterogeneous") {
+    messages_.warning(directive_.place, "the medium type \"heterogeneous\" is now called \"uniformgrid\"");
+    type = "uniformgrid";
+  }
+  const std::vector<std::string_view> types = {"homogeneous", "uniformgrid", "nanovdb", "vdb", "procedural"};
+  if (std::find(types.begin(), types.end(), type) == types.end())
+    unknown_type(p.place_of(ParameterType::string, "type"), "medium type", type, types, {"rgbgrid", "cloud"});
+
+  MediumDescription medium;
+  medium.name = name;
+  medium.location = location(directive_.place);
+  medium.world_from_medium = usable_ctm("the medium");
+  read_coefficients(p, medium);
+  read_emission(p, medium);
+  read_phase(p, medium);
+  if (type != "homogeneous") read_grid_settings(p, medium);
+  if (type == "homogeneous") {
+    medium.kind = HomogeneousMedium{};
+  } else if (type == "uniformgrid") {
+    medium.kind = read_uniform_grid(p);
+  } else if (type == "procedural") {
+    p.choice("kind", {"cloud"}, 0);
+    medium.kind = CloudMedium{static_cast<int>(p.integer("size", 128, 8, max_procedural_size)),
+                              static_cast<std::uint32_t>(p.integer("seed", 0, 0, 0xffffffff))};
+  } else {
+    p.require(ParameterType::string, "filename");
+    medium.kind = FileMedium{resolve(p.string("filename", "")), p.string("gridname", "")};
+    warn_of_temperature(p);
+  }
+  p.finish();
+
+  if (const auto [known, is_new] = media_by_name_.try_emplace(name, scene_.media.size()); is_new)
+    scene_.media.push_back(std::move(medium));
+  else
+    messages_.error(name_place, fmt::format("there is a medium \"{}\" already, from line {}", printable(name),
+                                            scene_.media[known->second].location.line));
+}
+
+void Reader::medium_interface() {
+  Place place = tokens_.peek().place;
+  state_.inside = string_argument("a medium's name");
+  medium_uses_.try_emplace(state_.inside, place);
+  state_.outside = state_.inside;
+  if (tokens_.peek().kind != Token::Kind::string) return;
+  place = tokens_.peek().place;
+  state_.outside = string_argument("a medium's name");
+  medium_uses_.try_emplace(state_.outside, place);
+}
+
+}  // namespace brume

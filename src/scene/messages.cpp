@@ -1,0 +1,146 @@
+#include "scene/messages.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+
+namespace brume {
+
+namespace {
+
+constexpr std::size_t max_shown_name = 60;
+constexpr std::size_t max_shown_line = 160;
+constexpr std::size_t excerpt_before = 60, excerpt_after = 60;
+
+// The length of the UTF-8 sequence that begins at `at`, or 0 where there is none.
+std::size_t sequence_length(std::string_view text, std::size_t at) {
+  const auto lead = static_cast<unsigned char>(text[at]);
+  const std::size_t length = lead < 0x80                   ? 1
+                             : lead >= 0xc2 && lead < 0xe0 ? 2
+                             : lead >= 0xe0 && lead < 0xf0 ? 3
+                             : lead >= 0xf0 && lead < 0xf5 ? 4
+                                                           : 0;
+  if (at + length > text.size()) return 0;
+  for (std::size_t i = 1; i < length; ++i)
+    if ((static_cast<unsigned char>(text[at + i]) & 0xc0) != 0x80) return 0;
+  return length;
+}
+
+// The same number of characters, with control characters (but tabs) and broken UTF-8 replaced by '?'.
+std::string without_controls(std::string_view text) {
+  std::string clean;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = sequence_length(text, i);
+    const bool control = length == 1 && ((text[i] >= 0 && text[i] < 0x20 && text[i] != '\t') || text[i] == 0x7f);
+    if (length == 0 || control) {
+      // Continuation bytes do not count as columns, so they leave nothing behind.
+      if ((static_cast<unsigned char>(text[i]) & 0xc0) != 0x80) clean += '?';
+      ++i;
+    } else {
+      clean += text.substr(i, length);
+      i += length;
+    }
+  }
+  return clean;
+}
+
+bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
+
+// The line around a place, whole where it is short. Of a longer one an excerpt; where the place's column lies beyond
+// what is shown, the excerpt has its own caret and goes into the message, since a diagnostic's caret stands under its
+// column.
+void add_source_line(Diagnostic& diagnostic, const Place& place) {
+  const std::string_view text = place.source->text;
+  const std::size_t offset = std::min(place.offset, text.size());
+  std::size_t begin = offset, end = offset;
+  while (begin > 0 && text[begin - 1] != '\n' && offset - begin < max_shown_line) --begin;
+  while (end < text.size() && text[end] != '\n' && text[end] != '\r' && end - begin < 2 * max_shown_line) ++end;
+  const bool from_start = begin == 0 || text[begin - 1] == '\n';
+  if (from_start && end - begin <= max_shown_line) {
+    diagnostic.source_line = without_controls(text.substr(begin, end - begin));
+    return;
+  }
+  end = std::min(end, offset + excerpt_after);
+  while (end < text.size() && is_continuation(text[end])) ++end;
+  const bool to_end = end == text.size() || text[end] == '\n' || text[end] == '\r';
+  const std::string_view tail = to_end ? "" : "...";
+  if (from_start && offset - begin <= excerpt_before) {
+    diagnostic.source_line = without_controls(text.substr(begin, end - begin)) + std::string(tail);
+    return;
+  }
+  begin = std::max(begin, offset - std::min(offset, excerpt_before));
+  while (begin < offset && is_continuation(text[begin])) ++begin;
+  std::string before = without_controls(text.substr(begin, offset - begin));
+  std::string after = without_controls(text.substr(offset, end - offset));
+  std::replace(before.begin(), before.end(), '\t', ' ');
+  const auto columns =
+      static_cast<std::size_t>(std::count_if(before.begin(), before.end(), [](char c) { return !is_continuation(c); }));
+  diagnostic.message += fmt::format("\n  ...{}{}{}\n  {}^", before, after, tail, std::string(columns + 3, ' '));
+}
+
+}  // namespace
+
+Location location(const Place& place) {
+  return {place.source ? place.source->name : std::string(), place.line, place.column};
+}
+
+std::string printable(std::string_view text) {
+  if (text.size() <= max_shown_name) return without_controls(text);
+  std::size_t end = max_shown_name;
+  while (end > 0 && is_continuation(text[end])) --end;
+  return without_controls(text.substr(0, end)) + "...";
+}
+
+std::string suggestion(std::string_view name, const std::vector<std::string_view>& valid,
+                       const std::string& otherwise) {
+  // The distance takes time proportional to the product of the lengths; nobody mistypes a name of this length.
+  const std::string_view nearest = name.size() > 1 && name.size() <= max_shown_name ? nearest_name(name, valid) : "";
+  if (!nearest.empty()) return fmt::format("; did you mean \"{}\"?", printable(nearest));
+  return otherwise.empty() ? std::string() : "; " + otherwise;
+}
+
+std::string enumerate(const std::vector<std::string>& words, std::string_view conjunction) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) text += i + 1 < words.size() ? ", " : fmt::format(" {} ", conjunction);
+    text += words[i];
+  }
+  return text;
+}
+
+void Messages::error(const Place& place, const std::string& message) {
+  Entry entry{{Severity::error, location(place), message, {}}, place};
+  if (place.source && place.line > 0) add_source_line(entry.diagnostic, place);
+  errors_.push_back(std::move(entry));
+  if (errors_.size() >= max_errors) throw TooManyErrors{};
+}
+
+void Messages::fail(const Place& place, const std::string& message) {
+  error(place, message);
+  throw Abandon{};
+}
+
+void Messages::warning(const Place& place, const std::string& message) {
+  if (warnings_.size() >= max_warnings || !warned_.insert(message).second) return;
+  Entry entry{{Severity::warning, location(place), message, {}}, place};
+  if (place.source && place.line > 0) add_source_line(entry.diagnostic, place);
+  warnings_.push_back(std::move(entry));
+}
+
+std::vector<Diagnostic> Messages::sorted(std::vector<Entry>& entries) {
+  const auto key = [](const Entry& e) {
+    return std::tuple(e.place.source ? e.place.source->order : 0, e.place.line, e.place.column);
+  };
+  std::stable_sort(entries.begin(), entries.end(), [&](const Entry& a, const Entry& b) { return key(a) < key(b); });
+  std::vector<Diagnostic> diagnostics;
+  for (Entry& e : entries) diagnostics.push_back(std::move(e.diagnostic));
+  return diagnostics;
+}
+
+void Messages::finish(std::vector<Diagnostic>& warnings) {
+  for (Diagnostic& d : sorted(warnings_)) warnings.push_back(std::move(d));
+  if (!errors_.empty()) throw InputError(sorted(errors_));
+}
+
+}  // namespace brume

@@ -1,0 +1,228 @@
+// The directives before WorldBegin that say how to make the picture: camera, film, sampler, filter, integrator.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "scene/reader.h"
+
+namespace brume {
+
+namespace {
+
+constexpr std::int64_t max_edge = 65536, max_pixels = std::int64_t{1} << 28;
+constexpr std::int64_t max_samples = std::int64_t{1} << 24;
+constexpr std::int64_t max_depth = 1000000;
+constexpr std::int64_t max_seed = 0xffffffff;
+constexpr double max_filter_radius = 32;  // pixels
+const std::string no_effect = "has no effect";
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+bool contains(const std::vector<std::string_view>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+void Reader::camera() {
+  const std::string type = string_argument("a type");
+  if (type != "perspective")
+    unknown_type(argument_, "Camera", type, {"perspective"}, {"orthographic", "spherical", "realistic", "environment"});
+  ParameterList p = parameters("Camera \"perspective\"");
+  scene_.camera.location = location(directive_.place);
+  scene_.camera.world_from_camera = inverse(usable_ctm("the camera"));
+  scene_.camera.medium = state_.outside;
+  coordinate_systems_["camera"] = scene_.camera.world_from_camera;
+  scene_.camera.fov = p.number("fov", 90, Range::between(0, 180));
+  screen_window(p);
+  if (p.number("lensradius", 0) != 0)
+    p.value_error(*p.find(ParameterType::float_, "lensradius"), 0, "must be 0: depth of field is not supported yet");
+  p.ignore({"float focaldistance"});
+  const double open = p.number("shutteropen", 0), close = p.number("shutterclose", 1);
+  if (!(close > open))
+    p.error(p.place(), fmt::format("the shutter of {} must close after it opens; it opens at {} and closes "
+                                   "at {}",
+                                   p.owner(), open, close));
+  p.finish();
+}
+
+void Reader::screen_window(ParameterList& p) {
+  scene_.camera.screen_window = {};
+  const double aspect = p.number("frameaspectratio", 0, Range::from_to(0.001, 1000));
+  if (aspect >= 1) scene_.camera.screen_window = {-aspect, aspect, -1, 1};
+  if (aspect > 0 && aspect < 1) scene_.camera.screen_window = {-1, 1, -1 / aspect, 1 / aspect};
+  const Parameter* window = p.find(ParameterType::float_, "screenwindow");
+  if (!window) return;
+  const std::vector<double>& v = window->numbers;
+  if (v.size() != 4)
+    p.value_error(*window, 4, fmt::format("takes 4 numbers, found {}", v.size()));
+  else if (!(v[0] < v[1] && v[2] < v[3]))
+    p.value_error(*window, 0, "must be x0 x1 y0 y1 with x0 < x1 and y0 < y1");
+  else
+    scene_.camera.screen_window = {v[0], v[1], v[2], v[3]};
+}
+
+void Reader::film() {
+  std::string type = string_argument("a type");
+  modernise(type, "image", "rgb");
+  if (type != "rgb") unknown_type(argument_, "Film", type, {"rgb"}, {"gbuffer", "spectral"});
+  ParameterList p = parameters("Film \"rgb\"");
+  scene_.film = {};
+  scene_.film.filename = p.string("filename", scene_.film.filename);
+  scene_.film.width = static_cast<int>(p.integer("xresolution", 1280, 1, max_edge));
+  scene_.film.height = static_cast<int>(p.integer("yresolution", 720, 1, max_edge));
+  if (std::int64_t{scene_.film.width} * scene_.film.height > max_pixels)
+    p.error(p.place(),
+            fmt::format("{} x {} pixels are more than {}", scene_.film.width, scene_.film.height, max_pixels));
+  scene_.film.save_fp16 = p.boolean("savefp16", true);
+  p.ignore({"float diagonal"});
+  p.warn({"float cropwindow", "integer pixelbounds"}, "has no effect: the whole frame is rendered");
+  p.warn({"float maxcomponentvalue", "float maxsampleluminance", "float scale"}, no_effect);
+  if (p.number("iso", 100, Range::above(0)) != 100)
+    messages_.warning(p.place_of(ParameterType::float_, "iso"),
+                      "\"float iso\" has no effect: pixels are not scaled by exposure");
+  if (p.number("whitebalance", 0, Range::at_least(0)) != 0)
+    messages_.warning(p.place_of(ParameterType::float_, "whitebalance"), "\"float whitebalance\" has no effect");
+  if (const std::string sensor = p.string("sensor", "cie1931"); sensor != "cie1931")
+    messages_.warning(p.place_of(ParameterType::string, "sensor"),
+                      fmt::format("the sensor \"{}\" has no effect; \"cie1931\" is used", printable(sensor)));
+  p.finish();
+}
+
+void Reader::sampler() {
+  const Place place = tokens_.peek().place;
+  std::string type = string_argument("a type");
+  modernise(type, "random", "independent");
+  modernise(type, "lowdiscrepancy", "paddedsobol");
+  modernise(type, "02sequence", "paddedsobol");
+  modernise(type, "maxmindist", "pmj02bn");
+  const std::vector<std::string_view> types = {"independent", "stratified", "halton", "sobol",
+                                               "paddedsobol", "zsobol",     "pmj02bn"};
+  if (!contains(types, type)) unknown_type(argument_, "Sampler", type, types, {});
+  if (type != "independent")
+    messages_.warning(place, fmt::format("there is one sampler so far; \"{}\" is read as \"independent\"", type));
+  ParameterList p = parameters(fmt::format("Sampler \"{}\"", type));
+  if (type == "stratified") {
+    const std::int64_t x = p.integer("xsamples", 4, 1, 4096), y = p.integer("ysamples", 4, 1, 4096);
+    scene_.sampler.pixel_samples = static_cast<int>(x * y);
+    p.ignore({"bool jitter"});
+  } else {
+    const std::int64_t fallback = type == "independent" ? 4 : 16;
+    scene_.sampler.pixel_samples = static_cast<int>(p.integer("pixelsamples", fallback, 1, max_samples));
+    p.ignore({"string randomization"});
+  }
+  sampler_seed_.reset();
+  const std::int64_t seed = p.integer("seed", -1, 0, max_seed);
+  if (seed >= 0) sampler_seed_ = static_cast<std::uint32_t>(seed);
+  p.finish();
+}
+
+void Reader::pixel_filter() {
+  const Place place = tokens_.peek().place;
+  const std::string type = string_argument("a type");
+  const std::vector<std::string_view> types = {"box", "gaussian", "mitchell", "sinc", "triangle"};
+  if (!contains(types, type)) unknown_type(argument_, "PixelFilter", type, types, {});
+  ParameterList p = parameters(fmt::format("PixelFilter \"{}\"", type));
+  p.rename("xwidth", "xradius");
+  p.rename("ywidth", "yradius");
+  const double usual = type == "box" ? 0.5 : type == "gaussian" ? 1.5 : type == "sinc" ? 4 : 2;
+  const double x = p.number("xradius", usual, {0, max_filter_radius, true, false});
+  const double y = p.number("yradius", usual, {0, max_filter_radius, true, false});
+  FilterDescription& f = scene_.filter;
+  f = {};
+  if (type == "box" || type == "gaussian" || type == "triangle") {
+    f.x_radius = static_cast<float>(x);
+    f.y_radius = static_cast<float>(y);
+  }
+  if (type == "box") f.kind = FilterDescription::Kind::box;
+  if (type == "gaussian") {
+    if (const double alpha = p.number("alpha", 0, Range::at_least(0)); alpha > 0) {
+      messages_.warning(p.place_of(ParameterType::float_, "alpha"),
+                        "\"float alpha\" is now \"float sigma\", which is 1 / sqrt(2 alpha)");
+      f.sigma = static_cast<float>(1 / std::sqrt(2 * alpha));
+    }
+    f.sigma = static_cast<float>(p.number("sigma", static_cast<double>(f.sigma), {0, max_filter_radius, true, false}));
+  }
+  // The gaussian of the same variance: a triangle's is radius^2 / 6. A mitchell's or sinc's main lobe is as wide as
+  // that of the default gaussian, whatever lies beyond.
+  if (type == "triangle") f.sigma = static_cast<float>((x + y) / 2 / std::sqrt(6.0));
+  if (type == "mitchell") p.ignore({"float B", "float C"});
+  if (type == "sinc") p.ignore({"float tau"});
+  if (type != "box" && type != "gaussian")
+    messages_.warning(place, fmt::format("there is no filter \"{}\" yet; a gaussian much like it is used", type));
+  p.finish();
+}
+
+void Reader::integrator() {
+  std::string type = string_argument("a type");
+  const std::vector<std::string_view> types = {"classic",    "volpath",    "simplevolpath",   "path",
+                                               "simplepath", "randomwalk", "lightpath",       "bdpt",
+                                               "mlt",        "sppm",       "ambientocclusion"};
+  if (!contains(types, type)) unknown_type(argument_, "Integrator", type, types, {"function"});
+  ParameterList p = parameters(fmt::format("Integrator \"{}\"", type));
+  IntegratorDescription& i = scene_.integrator;
+  i = {};
+  i.name = type;
+  i.location = location(directive_.place);
+  i.max_depth = static_cast<int>(p.integer("maxdepth", 5, 0, max_depth));
+  if (type == "classic") {
+    i.traversal = static_cast<Traversal>(p.choice("traversal", {"march", "dda"}, 0));
+    i.placement = static_cast<Placement>(p.choice("placement", {"start", "random", "middle", "middle-random"},
+                                                  static_cast<std::size_t>(Placement::middle)));
+    i.step = p.number("step", 0, Range::at_least(0));
+  } else {
+    p.rename("lightsamplestrategy", "lightsampler");
+    p.ignore({"string lightsampler", "bool regularize", "bool samplelights", "bool samplebsdf",
+              "bool visualizestrategies", "bool visualizeweights", "integer bootstrapsamples", "integer chains",
+              "integer mutationsperpixel", "float largestepprobability", "float sigma", "integer photonsperiteration",
+              "float radius", "integer seed", "bool cossample", "float maxdistance"});
+  }
+  p.finish();
+}
+
+void Reader::accelerator() {
+  string_argument("a type");
+  parameters("Accelerator").ignore_all();
+}
+
+void Reader::color_space() {
+  const Place place = tokens_.peek().place;
+  const std::string name = string_argument("a name");
+  const std::string lower = lower_case(name);
+  if (lower == "srgb") return;
+  if (contains({"rec2020", "dci-p3", "aces2065-1"}, lower))
+    messages_.fail(place,
+                   fmt::format("ColorSpace \"{}\" is not supported yet; colours are in \"srgb\"", printable(name)));
+  messages_.fail(place, fmt::format("unknown ColorSpace \"{}\"; colours are in \"srgb\"", printable(name)));
+}
+
+void Reader::option() {
+  const Place place = tokens_.peek().place;
+  std::string name = lower_case(string_argument("a name"));
+  std::erase_if(name, [](char c) { return c == '-' || c == '_'; });
+  const std::vector<std::string_view> names = {
+      "seed",          "disablepixeljitter", "disabletexturefiltering", "disablewavelengthjitter", "forcediffuse",
+      "pixelstats",    "wavefront",          "displacementedgescale",   "msereferenceimage",       "msereferenceout",
+      "rendercoordsys"};
+  if (!contains(names, name))
+    messages_.fail(place, fmt::format("unknown Option \"{}\"{}", printable(name), suggestion(name, names, {})));
+  if (name != "seed") {
+    messages_.warning(place, fmt::format("Option \"{}\" has no effect", name));
+    tokens_.next();
+    return;
+  }
+  const Token value = tokens_.peek();
+  std::int64_t seed = 0;
+  if (read_integer(value.text, seed) != NumberStatus::ok || value.kind != Token::Kind::number || seed < 0)
+    messages_.fail(value.place,
+                   fmt::format("Option \"seed\" must be an integer from 0 to {}, found {}", max_seed, describe(value)));
+  tokens_.next();
+  global_seed_ = static_cast<std::uint32_t>(seed);
+}
+
+}  // namespace brume

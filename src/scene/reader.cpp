@@ -1,0 +1,291 @@
+#include "scene/reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/file.h"
+
+namespace brume {
+
+namespace {
+
+constexpr std::size_t max_nesting = 10000;  // of attribute blocks
+constexpr std::size_t max_include_depth = 64;
+constexpr int max_inclusions = 10000;  // in all: files that include each other twice would never end
+
+}  // namespace
+
+Reader::Reader(std::string folder, Messages& messages)
+    : folder_(std::move(folder)), messages_(messages), tokens_(messages) {}
+
+SceneDescription Reader::read(const std::string& name, std::string_view text) {
+  sources_.push_back(std::make_unique<Source>(Source{name, text, 0}));
+  try {
+    if (text.starts_with("\x1f\x8b")) messages_.fail({sources_[0].get(), 0, 0, 0}, "is compressed by gzip: unpack it");
+    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+      messages_.fail({sources_[0].get(), 0, 0, 0}, "is UTF-16 text: save it as UTF-8");
+    if (text.starts_with("\xef\xbb\xbf")) sources_[0]->text.remove_prefix(3);
+    std::error_code ignored;
+    sources_by_name_[std::filesystem::weakly_canonical(name, ignored).string()] = sources_[0].get();
+    tokens_.push(*sources_[0]);
+    read_directives();
+    check_whole();
+  } catch (const Abandon&) {
+  } catch (const TooManyErrors&) {
+  }
+  return std::move(scene_);
+}
+
+const std::vector<Reader::Directive>& Reader::directives() {
+  static const std::vector<Directive> all = {
+      {"WorldBegin", Block::options, &Reader::world_begin},
+      {"WorldEnd", Block::both, &Reader::world_end},
+      {"AttributeBegin", Block::world, &Reader::attribute_begin},
+      {"AttributeEnd", Block::world, &Reader::attribute_end},
+      {"TransformBegin", Block::world, &Reader::transform_begin},
+      {"TransformEnd", Block::world, &Reader::transform_end},
+      {"Attribute", Block::both, &Reader::attribute},
+      {"Include", Block::both, &Reader::include},
+      {"Identity", Block::both, &Reader::identity},
+      {"Translate", Block::both, &Reader::translate_by},
+      {"Scale", Block::both, &Reader::scale_by},
+      {"Rotate", Block::both, &Reader::rotate_by},
+      {"LookAt", Block::both, &Reader::look_at_point},
+      {"Transform", Block::both, &Reader::transform},
+      {"ConcatTransform", Block::both, &Reader::concat_transform},
+      {"CoordinateSystem", Block::both, &Reader::coordinate_system},
+      {"CoordSysTransform", Block::both, &Reader::coord_sys_transform},
+      {"ActiveTransform", Block::both, &Reader::active_transform},
+      {"TransformTimes", Block::options, &Reader::transform_times},
+      {"ReverseOrientation", Block::world, &Reader::reverse_orientation},
+      {"Camera", Block::options, &Reader::camera},
+      {"Film", Block::options, &Reader::film},
+      {"Sampler", Block::options, &Reader::sampler},
+      {"PixelFilter", Block::options, &Reader::pixel_filter},
+      {"Integrator", Block::options, &Reader::integrator},
+      {"Accelerator", Block::options, &Reader::accelerator},
+      {"ColorSpace", Block::both, &Reader::color_space},
+      {"Option", Block::both, &Reader::option},
+      {"MakeNamedMedium", Block::both, &Reader::make_named_medium},
+      {"MediumInterface", Block::both, &Reader::medium_interface},
+      {"Shape", Block::world, &Reader::shape},
+      {"Material", Block::world, &Reader::material},
+      {"MakeNamedMaterial", Block::world, &Reader::make_named_material},
+      {"NamedMaterial", Block::world, &Reader::named_material},
+      {"LightSource", Block::world, &Reader::light_source},
+      {"AreaLightSource", Block::world, &Reader::refused},
+      {"Texture", Block::world, &Reader::refused},
+      {"ObjectBegin", Block::world, &Reader::refused},
+      {"ObjectEnd", Block::world, &Reader::refused},
+      {"ObjectInstance", Block::world, &Reader::refused},
+      {"Import", Block::world, &Reader::refused},
+  };
+  return all;
+}
+
+void Reader::read_directives() {
+  for (;;) try {
+      const Token token = tokens_.next();
+      if (token.kind == Token::Kind::end) return;
+      if (token.kind != Token::Kind::word)
+        messages_.fail(token.place, fmt::format("expected a directive, found {}", describe(token)));
+      read_directive(token);
+    } catch (const Abandon&) {
+      tokens_.skip_to_directive();
+    }
+}
+
+void Reader::read_directive(const Token& word) {
+  directive_ = word;
+  for (const Directive& d : directives())
+    if (d.name == word.text) {
+      check_block(d);
+      (this->*d.read)();
+      return;
+    }
+  std::vector<std::string_view> names;
+  for (const Directive& d : directives()) names.push_back(d.name);
+  messages_.fail(word.place,
+                 fmt::format("unknown directive \"{}\"{}", printable(word.text), suggestion(word.text, names, {})));
+}
+
+void Reader::check_block(const Directive& directive) {
+  if (in_world_ && directive.name == "WorldBegin")
+    messages_.fail(directive_.place, "this WorldBegin is the second one");
+  if (in_world_ && directive.block == Block::options)
+    messages_.fail(directive_.place, fmt::format("{} belongs before WorldBegin", directive.name));
+  // One message is enough about a WorldBegin that was left out.
+  if (directive.block == Block::world && !in_world_ && !early_) {
+    messages_.error(directive_.place, fmt::format("{} belongs after WorldBegin", directive.name));
+    early_ = true;
+  }
+}
+
+void Reader::world_begin() {
+  in_world_ = true;
+  state_.ctm = Transform();
+  coordinate_systems_["world"] = Transform();
+}
+
+void Reader::world_end() { messages_.warning(directive_.place, "WorldEnd is no longer needed"); }
+
+void Reader::push_state(std::string_view begin) {
+  if (stack_.size() >= max_nesting)
+    messages_.fail(directive_.place, fmt::format("{} is nested more than {} deep", begin, max_nesting));
+  stack_.push_back({state_, begin, directive_.place});
+}
+
+void Reader::pop_state(std::string_view begin, std::string_view end) {
+  if (stack_.empty()) messages_.fail(directive_.place, fmt::format("{} without {}", end, begin));
+  const Saved& saved = stack_.back();
+  if (saved.begin != begin)
+    messages_.error(directive_.place, fmt::format("{} closes the {} of line {}", end, saved.begin, saved.place.line));
+  state_ = std::move(stack_.back().state);
+  stack_.pop_back();
+}
+
+void Reader::attribute_begin() { push_state("AttributeBegin"); }
+void Reader::attribute_end() { pop_state("AttributeBegin", "AttributeEnd"); }
+void Reader::transform_begin() {
+  messages_.warning(directive_.place, "TransformBegin is now called AttributeBegin, and saves all attributes");
+  push_state("TransformBegin");
+}
+void Reader::transform_end() { pop_state("TransformBegin", "TransformEnd"); }
+
+void Reader::attribute() {
+  const Place place = tokens_.peek().place;
+  const std::string target = string_argument("a kind of thing");
+  const std::vector<std::string_view> targets = {"shape", "light", "material", "medium", "texture"};
+  if (std::find(targets.begin(), targets.end(), target) == targets.end())
+    messages_.fail(place,
+                   fmt::format("unknown Attribute \"{}\"; it is \"shape\", \"light\", \"material\", \"medium\" or "
+                               "\"texture\"",
+                               printable(target)));
+  std::vector<Parameter> added = read_parameters(tokens_, messages_);
+  auto& defaults = state_.defaults[target];
+  std::vector<Parameter> all = defaults ? *defaults : std::vector<Parameter>();
+  for (Parameter& p : added) {
+    std::erase_if(all, [&](const Parameter& old) { return old.name == p.name; });
+    all.push_back(std::move(p));
+  }
+  defaults = std::make_shared<const std::vector<Parameter>>(std::move(all));
+}
+
+void Reader::include() {
+  const Place place = tokens_.peek().place;
+  const std::string name = string_argument("a file name");
+  const Source& source = open_source(resolve(name), place);
+  const auto open = tokens_.open_sources();
+  if (std::find(open.begin(), open.end(), &source) != open.end())
+    messages_.fail(place, fmt::format("\"{}\" includes itself", printable(name)));
+  if (open.size() >= max_include_depth)
+    messages_.fail(place, fmt::format("files are included more than {} deep", max_include_depth));
+  if (++inclusions_ > max_inclusions)
+    messages_.fail(place, fmt::format("more than {} files are included", max_inclusions));
+  tokens_.push(source);
+}
+
+void Reader::refused() { messages_.fail(directive_.place, fmt::format("{} is not supported yet", directive_.text)); }
+
+std::string Reader::resolve(const std::string& filename) const {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  if (folder_.empty() || fs::path(filename).is_absolute()) return filename;
+  const std::string in_folder = (fs::path(folder_) / filename).string();
+  return fs::exists(in_folder, ignored) ? in_folder : filename;
+}
+
+const Source& Reader::open_source(const std::string& filename, const Place& place) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  const fs::path canonical = fs::weakly_canonical(filename, ignored);
+  const std::string key = canonical.empty() ? filename : canonical.string();
+  if (const auto known = sources_by_name_.find(key); known != sources_by_name_.end()) return *known->second;
+  if (!fs::exists(filename, ignored))
+    messages_.fail(place, fmt::format("there is no file \"{}\"", printable(filename)));
+  if (!fs::is_regular_file(filename, ignored))
+    messages_.fail(place, fmt::format("\"{}\" is not a file", printable(filename)));
+  std::string& text = texts_[key];
+  try {
+    text = read_file(filename);
+  } catch (const InputError& e) {
+    messages_.fail(place, fmt::format("\"{}\" {}", printable(filename), e.diagnostics().front().message));
+  }
+  if (text.starts_with("\x1f\x8b"))
+    messages_.fail(place, fmt::format("\"{}\" is compressed by gzip: unpack it", printable(filename)));
+  sources_.push_back(std::make_unique<Source>(Source{filename, text, static_cast<int>(sources_.size())}));
+  return *(sources_by_name_[key] = sources_.back().get());
+}
+
+std::string Reader::string_argument(std::string_view what) {
+  const Token& token = tokens_.peek();
+  if (token.kind != Token::Kind::string)
+    messages_.fail(token.place, fmt::format("{} takes {} in quotes, found {}", directive_.text, what, describe(token)));
+  argument_ = token.place;
+  return unescaped(tokens_.next());
+}
+
+double Reader::number_argument() {
+  const Token& token = tokens_.peek();
+  if (token.kind != Token::Kind::number)
+    messages_.fail(token.place, fmt::format("expected a number for {}, found {}", directive_.text, describe(token)));
+  double value = 0;
+  const NumberStatus status = read_number(token.text, value);
+  if (status == NumberStatus::malformed)
+    messages_.fail(token.place, fmt::format("{} is not a number", printable(token.text)));
+  if (status == NumberStatus::out_of_range)
+    messages_.fail(token.place, fmt::format("the number {} is out of range", printable(token.text)));
+  tokens_.next();
+  return value;
+}
+
+Vector3 Reader::vector_argument() {
+  Vector3 v;
+  for (int axis = 0; axis < 3; ++axis) v[axis] = number_argument();
+  return v;
+}
+
+ParameterList Reader::parameters(const std::string& owner, const std::string& target) {
+  ParameterList list(tokens_, messages_, owner, directive_.place);
+  if (const auto defaults = state_.defaults.find(target); defaults != state_.defaults.end())
+    list.add_defaults(*defaults->second);
+  return list;
+}
+
+void Reader::modernise(std::string& given, std::string_view old_name, std::string_view name) {
+  if (given != old_name) return;
+  messages_.warning(directive_.place, fmt::format("{} \"{}\" is now called \"{}\"", directive_.text, old_name, name));
+  given = name;
+}
+
+void Reader::unknown_type(const Place& place, std::string_view what, std::string_view type,
+                          const std::vector<std::string_view>& read_here,
+                          const std::vector<std::string_view>& of_pbrt) {
+  std::vector<std::string> quoted;
+  for (const std::string_view name : read_here) quoted.push_back(fmt::format("\"{}\"", name));
+  const std::string known = "it can be " + enumerate(quoted, "or");
+  if (std::find(of_pbrt.begin(), of_pbrt.end(), type) != of_pbrt.end())
+    messages_.fail(place, fmt::format("{} \"{}\" is not supported yet; {}", what, type, known));
+  messages_.fail(place, fmt::format("unknown {} \"{}\"{}", what, printable(type), suggestion(type, read_here, known)));
+}
+
+void Reader::check_whole() {
+  const Place end = tokens_.peek().place;
+  for (const Saved& open : stack_) messages_.error(open.place, fmt::format("this {} has no end", open.begin));
+  if (!in_world_ && !early_) messages_.error(end, "the scene has no WorldBegin");
+  check_media_names();
+  check_volumes();
+  scene_.sampler.seed = sampler_seed_ ? *sampler_seed_ : global_seed_.value_or(scene_.sampler.seed);
+}
+
+void Reader::check_media_names() {
+  std::vector<std::string_view> names;
+  for (const auto& [name, index] : media_by_name_) names.push_back(name);
+  for (const auto& [name, place] : medium_uses_)
+    if (!name.empty() && !media_by_name_.contains(name))
+      messages_.error(place, fmt::format("there is no medium \"{}\"{}", printable(name), suggestion(name, names, {})));
+}
+
+}  // namespace brume

@@ -1,0 +1,154 @@
+// The reader of scene files: one member function per directive, in reader.cpp (blocks, includes, names),
+// transforms.cpp, options.cpp, media.cpp, shapes.cpp, materials.cpp and lights.cpp.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/description.h"
+#include "scene/parameters.h"
+
+namespace brume {
+
+// What AttributeBegin saves and AttributeEnd brings back.
+struct GraphicsState {
+  Transform ctm;  // the current transformation matrix: world from object, before WorldBegin camera from world
+  bool reverse_orientation = false;
+  std::string inside, outside;
+  MaterialDescription material;
+  // Default parameters by the target of the Attribute directive; shared, since they may be large.
+  std::map<std::string, std::shared_ptr<const std::vector<Parameter>>> defaults;
+};
+
+class Reader {
+ public:
+  // Relative file names resolve against `folder`.
+  Reader(std::string folder, Messages& messages);
+
+  // Reads a scene; errors are noted in the messages, and the scene is then of no use. `text` must outlive the reader.
+  SceneDescription read(const std::string& name, std::string_view text);
+
+ private:
+  enum class Block { options, world, both };
+  struct Directive {
+    std::string_view name;
+    Block block;
+    void (Reader::*read)();
+  };
+  static const std::vector<Directive>& directives();
+
+  void read_directives();
+  void read_directive(const Token& word);
+  void check_block(const Directive& directive);
+
+  // Blocks, names and files.
+  void world_begin();
+  void world_end();
+  void attribute_begin();
+  void attribute_end();
+  void transform_begin();
+  void transform_end();
+  void push_state(std::string_view begin);
+  void pop_state(std::string_view begin, std::string_view end);
+  void attribute();
+  void include();
+  void refused();
+
+  // Transforms.
+  void identity();
+  void translate_by();
+  void scale_by();
+  void rotate_by();
+  void look_at_point();
+  void transform();
+  void concat_transform();
+  void coordinate_system();
+  void coord_sys_transform();
+  void active_transform();
+  void transform_times();
+  void reverse_orientation();
+  Transform matrix_argument();
+  void multiply(const Transform& t);
+
+  // Options.
+  void camera();
+  void film();
+  void sampler();
+  void pixel_filter();
+  void integrator();
+  void accelerator();
+  void color_space();
+  void option();
+  void screen_window(ParameterList& parameters);
+
+  // The world.
+  void make_named_medium();
+  void medium_interface();
+  void shape();
+  void material();
+  void make_named_material();
+  void named_material();
+  void light_source();
+  MaterialDescription read_material(const std::string& given, const Place& type_place, ParameterList& p);
+
+  // Arguments of directives; what is not there leaves the directive with an error.
+  std::string string_argument(std::string_view what);
+  double number_argument();
+  Vector3 vector_argument();
+  // The parameter list of the directive being read, with the defaults of `target` where that is not empty.
+  ParameterList parameters(const std::string& owner, const std::string& target = {});
+  // The current transformation matrix, which must not be singular, for `what`.
+  Transform usable_ctm(std::string_view what);
+  // `old_name` to `name` with a warning, where `given` is it.
+  void modernise(std::string& given, std::string_view old_name, std::string_view name);
+  // About a type of `what` at `place` that is not among those read here.
+  [[noreturn]] void unknown_type(const Place& place, std::string_view what, std::string_view type,
+                                 const std::vector<std::string_view>& read_here,
+                                 const std::vector<std::string_view>& of_pbrt);
+  // A file name of the scene: in the folder where there is such a file, else as given.
+  std::string resolve(const std::string& filename) const;
+  const Source& open_source(const std::string& filename, const Place& place);
+
+  // What only the whole scene shows.
+  void check_whole();
+  void check_media_names();
+  void check_volumes();
+
+  std::string folder_;
+  Messages& messages_;
+  TokenStream tokens_;
+  std::vector<std::unique_ptr<Source>> sources_;
+  std::map<std::string, std::string> texts_;  // of included files, by name
+  std::map<std::string, const Source*> sources_by_name_;
+  int inclusions_ = 0;
+
+  SceneDescription scene_;
+  GraphicsState state_;
+  struct Saved {
+    GraphicsState state;
+    std::string_view begin;  // the directive that saved it
+    Place place;
+  };
+  std::vector<Saved> stack_;
+  std::map<std::string, Transform> coordinate_systems_;
+  std::map<std::string, MaterialDescription> named_materials_;
+  bool in_world_ = false;
+  std::optional<std::uint32_t> sampler_seed_, global_seed_;
+  Token directive_;     // the one being read
+  Place argument_;      // the string last taken as its argument
+  bool early_ = false;  // something that belongs after WorldBegin stood before it, and was reported
+
+  std::map<std::string, std::size_t, std::less<>> media_by_name_;  // index into scene_.media
+  std::map<std::string, Place> medium_uses_;                       // the first of each name
+  struct VolumeUse {
+    std::string inside;
+    Transform ctm;
+    Place place;
+  };
+  std::vector<VolumeUse> volume_uses_;
+};
+
+}  // namespace brume

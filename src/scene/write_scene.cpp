@@ -1,0 +1,243 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "kernel/phase_table.h"
+#include "scene/read_scene.h"
+
+namespace brume {
+
+namespace {
+
+constexpr std::string_view traversal_names[] = {"march", "dda"};
+constexpr std::string_view placement_names[] = {"start", "random", "middle", "middle-random"};
+
+std::string quoted(std::string_view text) {
+  constexpr std::string_view special = "\b\f\n\r\t\\\"", letters = "bfnrt\\\"";
+  std::string result = "\"";
+  for (const char c : text) {
+    const std::size_t escape = special.find(c);
+    if (escape == std::string_view::npos)
+      result += c;
+    else
+      (result += '\\') += letters[escape];
+  }
+  return result + '"';
+}
+
+std::string numbers(Vector3 v) { return fmt::format("{} {} {}", v.x, v.y, v.z); }
+
+bool is_identity(const Transform& t) { return t == Transform(); }
+
+// Lines of text, indented by the blocks they stand in. Numbers are written with the fewest digits that read back as the
+// same.
+class Writer {
+ public:
+  std::string scene(const SceneDescription& scene) {
+    line(
+        "# A scene for Brume: pbrt-v4's language with Brume's additions. Lengths are in world units, colours in "
+        "linear");
+    line("# sRGB; matrices are written column by column.");
+    options(scene);
+    camera(scene);
+    line("");
+    line("WorldBegin");
+    for (const MediumDescription& m : scene.media) medium(m);
+    for (const LightDescription& l : scene.lights) light(l);
+    for (const ShapeDescription& s : scene.shapes) shape(s);
+    return std::move(text_);
+  }
+
+ private:
+  template <typename... Args>
+  void line(fmt::format_string<Args...> format, Args&&... args) {
+    const std::size_t begin = text_.size();
+    fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
+    if (text_.size() > begin) text_.insert(begin, static_cast<std::size_t>(2 * depth_), ' ');
+    text_ += '\n';
+  }
+
+  // `keyword [values]`; where they are many, in lines that hold whole triples.
+  template <typename Values>
+  void list(std::string_view keyword, const Values& values) {
+    constexpr std::size_t per_line = 12;
+    if (values.size() <= per_line) {
+      line("  {} [{}]", keyword, fmt::join(values, " "));
+      return;
+    }
+    line("  {} [", keyword);
+    for (std::size_t i = 0; i < values.size(); i += per_line)
+      line("    {}",
+           fmt::join(values.begin() + static_cast<std::ptrdiff_t>(i),
+                     values.begin() + static_cast<std::ptrdiff_t>(std::min(i + per_line, values.size())), " "));
+    line("  ]");
+  }
+
+  void matrix(const Transform& t) {
+    std::string columns;  // adding 0 writes -0 as 0
+    for (std::size_t c = 0; c < 4; ++c)
+      for (std::size_t r = 0; r < 4; ++r) columns += fmt::format("{}{}", columns.empty() ? "" : " ", t.m[r][c] + 0.0);
+    line("Transform [{}]", columns);
+  }
+
+  void colour(std::string_view name, const Spectrum& value) {
+    line("  \"rgb {}\" [{} {} {}]", name, value[0], value[1], value[2]);
+  }
+
+  void options(const SceneDescription& scene) {
+    const FilmDescription& film = scene.film;
+    line("Film \"rgb\" \"integer xresolution\" {} \"integer yresolution\" {}", film.width, film.height);
+    line("  \"string filename\" {} \"bool savefp16\" {}", quoted(film.filename), film.save_fp16);
+    line("Sampler \"independent\" \"integer pixelsamples\" {} \"integer seed\" {}", scene.sampler.pixel_samples,
+         scene.sampler.seed);
+    const FilterDescription& f = scene.filter;
+    const bool box = f.kind == FilterDescription::Kind::box;
+    line("PixelFilter \"{}\" \"float xradius\" {} \"float yradius\" {}{}", box ? "box" : "gaussian", f.x_radius,
+         f.y_radius, box ? std::string() : fmt::format(" \"float sigma\" {}", f.sigma));
+    const IntegratorDescription& i = scene.integrator;
+    line("Integrator {} \"integer maxdepth\" {}", quoted(i.name), i.max_depth);
+    if (i.name == "classic")
+      line("  \"string traversal\" \"{}\" \"string placement\" \"{}\" \"float step\" {}",
+           traversal_names[static_cast<std::size_t>(i.traversal)],
+           placement_names[static_cast<std::size_t>(i.placement)], i.step);
+  }
+
+  void camera(const SceneDescription& scene) {
+    const CameraDescription& camera = scene.camera;
+    line("");
+    if (!camera.medium.empty()) line("MediumInterface \"\" {}", quoted(camera.medium));
+    line("# Camera from world; the camera looks along its +z, +y is up and +x is right in the picture.");
+    if (!is_identity(camera.world_from_camera)) matrix(inverse(camera.world_from_camera));
+    line("Camera \"perspective\" \"float fov\" {}", camera.fov);
+    const std::array<double, 4>& w = camera.screen_window;
+    if (w != std::array<double, 4>{}) line("  \"float screenwindow\" [{} {} {} {}]", w[0], w[1], w[2], w[3]);
+    // What the Camera directive records lasts; nothing below is to inherit it.
+    if (!camera.medium.empty()) line("MediumInterface \"\"");
+  }
+
+  void medium(const MediumDescription& m) {
+    line("");
+    const bool moved = !is_identity(m.world_from_medium);
+    if (moved) begin_moved(m.world_from_medium);
+    line("MakeNamedMedium {}", quoted(m.name));
+    std::visit([&](const auto& kind) { medium_kind(kind); }, m.kind);
+    line("  # per world unit, at density 1");
+    colour("sigma_a", m.sigma_a);
+    colour("sigma_s", m.sigma_s);
+    if (!is_zero(m.emission)) colour("Le", m.emission);
+    const PhaseFunction& phase = phase_functions()[static_cast<std::size_t>(m.phase)].table;
+    line("  \"string phase\" \"{}\"", phase.name);
+    for (std::size_t i = 0; i < m.phase_parameters.size(); ++i)
+      line("  \"float {}\" {}", phase.parameters[i].name, m.phase_parameters[i]);
+    if (!std::holds_alternative<HomogeneousMedium>(m.kind))
+      line("  \"string interpolation\" \"{}\" \"integer storage\" {}", m.linear_interpolation ? "linear" : "nearest",
+           m.storage_bits);
+    if (moved) end_block();
+  }
+
+  void medium_kind(const HomogeneousMedium&) { line("  \"string type\" \"homogeneous\""); }
+  void medium_kind(const UniformGridMedium& grid) {
+    line("  \"string type\" \"uniformgrid\"");
+    line("  \"integer nx\" {} \"integer ny\" {} \"integer nz\" {}", grid.resolution[0], grid.resolution[1],
+         grid.resolution[2]);
+    line("  \"point3 p0\" [{}] \"point3 p1\" [{}]", numbers(grid.p0), numbers(grid.p1));
+    list("\"float density\"", grid.density);
+  }
+  void medium_kind(const FileMedium& file) {
+    line("  \"string type\" \"vdb\" \"string filename\" {}", quoted(file.filename));
+    if (!file.grid.empty()) line("  \"string gridname\" {}", quoted(file.grid));
+  }
+  void medium_kind(const CloudMedium& cloud) {
+    line("  \"string type\" \"procedural\" \"string kind\" \"cloud\" \"integer size\" {} \"integer seed\" {}",
+         cloud.size, cloud.seed);
+  }
+
+  void light(const LightDescription& l) {
+    line("");
+    std::visit([&](const auto& kind) { light_kind(kind); }, l.kind);
+  }
+  void light_kind(const PointLight& l) {
+    line("LightSource \"point\" \"point3 from\" [{}]", numbers(l.from));
+    colour("I", l.intensity);
+  }
+  void light_kind(const DistantLight& l) {
+    line("LightSource \"distant\" \"point3 from\" [{}] \"point3 to\" [0 0 0]", numbers(l.direction_to_light));
+    colour("L", l.radiance);
+  }
+  void light_kind(const InfiniteLight& l) {
+    line("LightSource \"infinite\"");
+    colour("L", l.radiance);
+  }
+
+  void shape(const ShapeDescription& s) {
+    line("");
+    begin_block();
+    if (!s.inside.empty() || !s.outside.empty()) line("MediumInterface {} {}", quoted(s.inside), quoted(s.outside));
+    if (!std::holds_alternative<VolumeShape>(s.kind)) {
+      if (!is_identity(s.world_from_object)) matrix(s.world_from_object);
+      if (s.reverse_orientation) line("ReverseOrientation");
+      std::visit([&](const auto& m) { material(m); }, s.material);
+    }
+    std::visit([&](const auto& kind) { shape_kind(kind); }, s.kind);
+    end_block();
+  }
+
+  void material(const DiffuseMaterial& m) {
+    line("Material \"diffuse\"");
+    colour("reflectance", m.reflectance);
+  }
+  void material(const BlinnPhongMaterial& m) {
+    line("Material \"blinnphong\" \"float shininess\" {}", m.shininess);
+    colour("diffuse", m.diffuse);
+    colour("specular", m.specular);
+    colour("reflection", m.reflection);
+  }
+  void material(const InterfaceMaterial&) { line("Material \"interface\""); }
+
+  void shape_kind(const SphereShape& s) { line("Shape \"sphere\" \"float radius\" {}", s.radius); }
+  void shape_kind(const QuadShape& s) {
+    line("Shape \"quad\" \"point3 origin\" [{}]", numbers(s.origin));
+    line("  \"vector3 edgeu\" [{}] \"vector3 edgev\" [{}]", numbers(s.edge_u), numbers(s.edge_v));
+  }
+  void shape_kind(const TriangleMeshShape& s) {
+    line("Shape \"trianglemesh\"");
+    list("\"integer indices\"", flat(s.triangles));
+    list("\"point3 P\"", flat(s.positions));
+    if (!s.normals.empty()) list("\"normal N\"", flat(s.normals));
+  }
+  void shape_kind(const VolumeShape&) { line("Shape \"volume\""); }
+
+  static std::vector<double> flat(const std::vector<Vector3>& vectors) {
+    std::vector<double> values;
+    for (const Vector3& v : vectors) values.insert(values.end(), {v.x, v.y, v.z});
+    return values;
+  }
+  static std::vector<std::uint32_t> flat(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+    std::vector<std::uint32_t> values;
+    for (const auto& t : triangles) values.insert(values.end(), t.begin(), t.end());
+    return values;
+  }
+
+  void begin_block() {
+    line("AttributeBegin");
+    ++depth_;
+  }
+  void begin_moved(const Transform& t) {
+    begin_block();
+    matrix(t);
+  }
+  void end_block() {
+    --depth_;
+    line("AttributeEnd");
+  }
+
+  std::string text_;
+  int depth_ = 0;
+};
+
+}  // namespace
+
+std::string write_scene(const SceneDescription& scene) { return Writer().scene(scene); }
+
+}  // namespace brume

@@ -1,0 +1,57 @@
+#include "image/film.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace brume {
+namespace {
+
+// Values whose sums round differently in different orders.
+Spectrum value(int x, int y, int sample) {
+  const float v = 1.0f / static_cast<float>(3 + 7 * x + 13 * y + 29 * sample);
+  return Spectrum{{v, 1e6f * v, 1e-6f * v}};
+}
+
+TEST(Film, MeansOfSamples) {
+  Film film(2, 1);
+  film.add(0, 0, Spectrum{{1, 2, 3}});
+  film.add(0, 0, Spectrum{{3, 2, 1}});
+  EXPECT_EQ(film.image().pixels, (std::vector<float>{2, 2, 2, 0, 0, 0}));
+  EXPECT_EQ(film.samples_per_pixel(), 0);  // what every pixel has
+  film.add(1, 0, Spectrum{{1, 1, 1}});
+  EXPECT_EQ(film.samples_per_pixel(), 1);
+}
+
+TEST(Film, TheOrderOfPixelsDoesNotMatter) {
+  constexpr int width = 7, height = 5, samples = 9;
+  Film by_pixel(width, height), by_sample(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (int s = 0; s < samples; ++s) by_pixel.add(x, y, value(x, y, s));
+  for (int s = 0; s < samples; ++s)
+    for (int x = width - 1; x >= 0; --x)
+      for (int y = height - 1; y >= 0; --y) by_sample.add(x, y, value(x, y, s));
+  EXPECT_EQ(by_pixel.image().pixels, by_sample.image().pixels);
+}
+
+TEST(Film, CountsWhatIsNotFiniteAndLeavesItOut) {
+  Film film(1, 1);
+  const float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+  film.add(0, 0, Spectrum{{1, 1, 1}});
+  film.add(0, 0, Spectrum{{nan, 1, 1}});
+  film.add(0, 0, Spectrum{{1, infinity, 1}});
+  film.add(0, 0, Spectrum{{1, 1, -infinity}});
+  EXPECT_EQ(film.invalid_samples(), 3);
+  EXPECT_EQ(film.samples_per_pixel(), 4);
+  EXPECT_EQ(film.image().pixels, (std::vector<float>{1, 1, 1}));
+}
+
+TEST(Film, APixelWithoutValidSamplesIsBlack) {
+  Film film(1, 1);
+  film.add(0, 0, constant_spectrum(std::numeric_limits<float>::quiet_NaN()));
+  EXPECT_EQ(film.image().pixels, (std::vector<float>{0, 0, 0}));
+}
+
+}  // namespace
+}  // namespace brume

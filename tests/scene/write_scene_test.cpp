@@ -1,0 +1,185 @@
+// What write_scene writes reads back as the same scene.
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "kernel/phase_table.h"
+#include "scene_test.h"
+
+namespace brume {
+namespace {
+
+void expect_equal(const Transform& a, const Transform& b, double tolerance) {
+  for (std::size_t r = 0; r < 4; ++r)
+    for (std::size_t c = 0; c < 4; ++c) EXPECT_NEAR(a.m[r][c], b.m[r][c], tolerance);
+}
+
+void expect_equal(const MediumDescription& a, const MediumDescription& b) {
+  EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.world_from_medium, b.world_from_medium);
+  EXPECT_EQ(a.sigma_a, b.sigma_a);
+  EXPECT_EQ(a.sigma_s, b.sigma_s);
+  EXPECT_EQ(a.emission, b.emission);
+  EXPECT_EQ(a.phase, b.phase);
+  EXPECT_EQ(a.phase_parameters, b.phase_parameters);
+  EXPECT_EQ(a.linear_interpolation, b.linear_interpolation);
+  EXPECT_EQ(a.storage_bits, b.storage_bits);
+  ASSERT_EQ(a.kind.index(), b.kind.index());
+  if (const auto* grid = std::get_if<UniformGridMedium>(&a.kind)) {
+    const auto& other = std::get<UniformGridMedium>(b.kind);
+    EXPECT_EQ(grid->resolution, other.resolution);
+    EXPECT_EQ(grid->p0, other.p0);
+    EXPECT_EQ(grid->p1, other.p1);
+    EXPECT_EQ(grid->density, other.density);
+  }
+  if (const auto* file = std::get_if<FileMedium>(&a.kind)) {
+    EXPECT_EQ(file->filename, std::get<FileMedium>(b.kind).filename);
+    EXPECT_EQ(file->grid, std::get<FileMedium>(b.kind).grid);
+  }
+  if (const auto* cloud = std::get_if<CloudMedium>(&a.kind)) {
+    EXPECT_EQ(cloud->size, std::get<CloudMedium>(b.kind).size);
+    EXPECT_EQ(cloud->seed, std::get<CloudMedium>(b.kind).seed);
+  }
+}
+
+void expect_equal(const ShapeDescription& a, const ShapeDescription& b) {
+  EXPECT_EQ(a.world_from_object, b.world_from_object);
+  EXPECT_EQ(a.reverse_orientation, b.reverse_orientation);
+  EXPECT_EQ(a.inside, b.inside);
+  EXPECT_EQ(a.outside, b.outside);
+  ASSERT_EQ(a.material.index(), b.material.index());
+  if (const auto* diffuse = std::get_if<DiffuseMaterial>(&a.material)) {
+    EXPECT_EQ(diffuse->reflectance, std::get<DiffuseMaterial>(b.material).reflectance);
+  }
+  if (const auto* phong = std::get_if<BlinnPhongMaterial>(&a.material)) {
+    const auto& other = std::get<BlinnPhongMaterial>(b.material);
+    EXPECT_EQ(phong->diffuse, other.diffuse);
+    EXPECT_EQ(phong->specular, other.specular);
+    EXPECT_EQ(phong->reflection, other.reflection);
+    EXPECT_EQ(phong->shininess, other.shininess);
+  }
+  ASSERT_EQ(a.kind.index(), b.kind.index());
+  if (const auto* sphere = std::get_if<SphereShape>(&a.kind)) {
+    EXPECT_EQ(sphere->radius, std::get<SphereShape>(b.kind).radius);
+  }
+  if (const auto* mesh = std::get_if<TriangleMeshShape>(&a.kind)) {
+    const auto& other = std::get<TriangleMeshShape>(b.kind);
+    EXPECT_EQ(mesh->positions, other.positions);
+    EXPECT_EQ(mesh->triangles, other.triangles);
+    EXPECT_EQ(mesh->normals, other.normals);
+  }
+  if (const auto* quad = std::get_if<QuadShape>(&a.kind)) {
+    const auto& other = std::get<QuadShape>(b.kind);
+    EXPECT_EQ(quad->origin, other.origin);
+    EXPECT_EQ(quad->edge_u, other.edge_u);
+    EXPECT_EQ(quad->edge_v, other.edge_v);
+  }
+}
+
+void expect_equal(const LightDescription& a, const LightDescription& b) {
+  ASSERT_EQ(a.kind.index(), b.kind.index());
+  if (const auto* point = std::get_if<PointLight>(&a.kind)) {
+    EXPECT_EQ(point->from, std::get<PointLight>(b.kind).from);
+    EXPECT_EQ(point->intensity, std::get<PointLight>(b.kind).intensity);
+  }
+  if (const auto* distant = std::get_if<DistantLight>(&a.kind)) {
+    EXPECT_EQ(distant->direction_to_light, std::get<DistantLight>(b.kind).direction_to_light);
+    EXPECT_EQ(distant->radiance, std::get<DistantLight>(b.kind).radiance);
+  }
+  if (const auto* infinite = std::get_if<InfiniteLight>(&a.kind)) {
+    EXPECT_EQ(infinite->radiance, std::get<InfiniteLight>(b.kind).radiance);
+  }
+}
+
+// Exact but for the camera's matrix, which the language gives by its inverse.
+void expect_equal(const SceneDescription& a, const SceneDescription& b) {
+  EXPECT_EQ(a.film.filename, b.film.filename);
+  EXPECT_EQ(a.film.width, b.film.width);
+  EXPECT_EQ(a.film.height, b.film.height);
+  EXPECT_EQ(a.film.save_fp16, b.film.save_fp16);
+  EXPECT_EQ(a.sampler.pixel_samples, b.sampler.pixel_samples);
+  EXPECT_EQ(a.sampler.seed, b.sampler.seed);
+  EXPECT_EQ(a.filter.kind, b.filter.kind);
+  EXPECT_EQ(a.filter.x_radius, b.filter.x_radius);
+  EXPECT_EQ(a.filter.y_radius, b.filter.y_radius);
+  EXPECT_EQ(a.filter.sigma, b.filter.sigma);
+  EXPECT_EQ(a.integrator.name, b.integrator.name);
+  EXPECT_EQ(a.integrator.max_depth, b.integrator.max_depth);
+  EXPECT_EQ(a.integrator.traversal, b.integrator.traversal);
+  EXPECT_EQ(a.integrator.placement, b.integrator.placement);
+  EXPECT_EQ(a.integrator.step, b.integrator.step);
+  expect_equal(a.camera.world_from_camera, b.camera.world_from_camera, 1e-14);
+  EXPECT_EQ(a.camera.fov, b.camera.fov);
+  EXPECT_EQ(a.camera.screen_window, b.camera.screen_window);
+  EXPECT_EQ(a.camera.medium, b.camera.medium);
+  ASSERT_EQ(a.media.size(), b.media.size());
+  for (std::size_t i = 0; i < a.media.size(); ++i) expect_equal(a.media[i], b.media[i]);
+  ASSERT_EQ(a.shapes.size(), b.shapes.size());
+  for (std::size_t i = 0; i < a.shapes.size(); ++i) expect_equal(a.shapes[i], b.shapes[i]);
+  ASSERT_EQ(a.lights.size(), b.lights.size());
+  for (std::size_t i = 0; i < a.lights.size(); ++i) expect_equal(a.lights[i], b.lights[i]);
+}
+
+void expect_round_trip(const SceneDescription& scene) {
+  std::vector<Diagnostic> warnings;
+  const SceneDescription again = scene_of(write_scene(scene), &warnings);
+  for (const Diagnostic& w : warnings) ADD_FAILURE() << to_string(w);
+  expect_equal(scene, again);
+}
+
+class WriteSceneFile : public testing::TestWithParam<const char*> {};
+TEST_P(WriteSceneFile, ReadsBackTheSame) {
+  std::vector<Diagnostic> warnings;
+  expect_round_trip(read_scene(test_folder(std::string("scenes/") + GetParam()), warnings));
+}
+INSTANTIATE_TEST_SUITE_P(Scenes, WriteSceneFile, testing::Values("fog.pbrt", "smoke.pbrt", "additions.pbrt"));
+
+TEST(WriteScene, AnEmptySceneReadsBackTheSame) { expect_round_trip({}); }
+
+TEST(WriteScene, NamesWithSpecialCharactersReadBackTheSame) {
+  SceneDescription scene;
+  scene.film.filename = "C:\\new folder\\\"x\"\t[1] # \xc3\xa9.exr";
+  scene.media.push_back({});
+  scene.media[0].name = "/obj/x/volumewrangle1[3,4,5]\n";
+  scene.media[0].phase = phase_kind("isotropic");
+  scene.camera.medium = scene.media[0].name;
+  expect_round_trip(scene);
+}
+
+// Numbers with all their digits: random bit patterns within what the language holds.
+TEST(WriteScene, NumbersReadBackToTheLastBit) {
+  std::mt19937_64 random(1);
+  const auto number = [&] {
+    const double mantissa = static_cast<double>(random() >> 11) * 0x1p-53 + 0.5;
+    return std::ldexp(mantissa, static_cast<int>(random() % 200) - 100) * (random() % 2 ? 1 : -1);
+  };
+  const auto colour = [&] {
+    Spectrum s;
+    for (int c = 0; c < channel_count; ++c) s[c] = static_cast<float>(std::abs(number()));
+    return s;
+  };
+  SceneDescription scene;
+  for (int i = 0; i < 50; ++i) {
+    scene.lights.push_back({PointLight{{number(), number(), number()}, colour()}, {}});
+    scene.lights.push_back({DistantLight{normalize({number(), number(), number()}), colour()}, {}});
+    ShapeDescription shape;
+    shape.world_from_object = translate({number(), number(), number()}) * rotate(number(), {1, number(), 2});
+    shape.kind = TriangleMeshShape{{{number(), number(), number()}, {number(), 1, 0}, {0, 0, 1}}, {{0, 1, 2}}, {}};
+    scene.shapes.push_back(shape);
+  }
+  MediumDescription medium;
+  medium.name = "grid";
+  medium.phase = phase_kind("henyey_greenstein");
+  medium.phase_parameters = {0.1f};
+  UniformGridMedium grid;
+  grid.resolution = {100, 1, 1};
+  for (int i = 0; i < 100; ++i) grid.density.push_back(static_cast<float>(std::abs(number())));
+  grid.density[0] = std::numeric_limits<float>::max();
+  grid.density[1] = std::numeric_limits<float>::denorm_min();
+  medium.kind = grid;
+  scene.media.push_back(medium);
+  expect_round_trip(scene);
+}
+
+}  // namespace
+}  // namespace brume
