@@ -1,5 +1,5 @@
-// CompiledScene: what integrators and intersectors see. Flat arrays with indices and offsets in place of pointers, so that
-// a GPU could take them as they are. Everything is in world space unless its name says otherwise.
+// CompiledScene: what integrators and intersectors see. Flat arrays with indices and offsets in place of pointers, so
+// that a GPU could take them as they are. Everything is in world space unless its name says otherwise.
 #pragma once
 
 #include <array>
@@ -9,7 +9,6 @@
 
 #include "base/geometry.h"
 #include "base/spectrum.h"
-#include "image/filter.h"
 #include "kernel/scalar.h"
 
 namespace brume {
@@ -42,6 +41,7 @@ struct CompiledMedium {
 struct CompiledMaterial {
   Spectrum diffuse, specular, mirror;
   float shininess = 1;
+  bool operator==(const CompiledMaterial&) const = default;
 };
 
 // The two sides of a shape that bounds media: crossing it inwards removes `outside` and adds `inside`.
@@ -85,6 +85,12 @@ struct CompiledCamera {
   double x0 = 0, dx = 0, y0 = 0, dy = 0;
 };
 
+// The pixel filter, in pixels.
+struct CompiledFilter {
+  bool gaussian = false;  // else box
+  float x_radius = 0.5f, y_radius = 0.5f, sigma = 0.5f;
+};
+
 struct CompiledIntegrator {
   int max_depth = 5;
   bool dda = false;
@@ -96,7 +102,7 @@ struct CompiledScene {
   int width = 0, height = 0;
   int samples_per_pixel = 16;
   std::uint32_t seed = 0;
-  Filter filter{FilterKind::box, 0.5f, 0.5f, 0};
+  CompiledFilter filter;
   CompiledCamera camera;
   CompiledIntegrator integrator;
 

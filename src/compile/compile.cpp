@@ -1,0 +1,95 @@
+#include "compile/compile.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "compile/compiler.h"
+
+namespace brume {
+
+CompiledScene compile(const SceneDescription& scene, int threads, std::vector<Diagnostic>& warnings) {
+  return Compiler(scene, threads).run(warnings);
+}
+
+CompiledScene Compiler::run(std::vector<Diagnostic>& warnings) {
+  compiled_.width = scene_.film.width;
+  compiled_.height = scene_.film.height;
+  compiled_.samples_per_pixel = scene_.sampler.pixel_samples;
+  compiled_.seed = scene_.sampler.seed;
+  const FilterDescription& f = scene_.filter;
+  compiled_.filter = {f.kind == FilterDescription::Kind::gaussian, f.x_radius, f.y_radius, f.sigma};
+  add_camera();
+  add_integrator();
+  add_lights();
+  for (const ShapeDescription& shape : scene_.shapes) add_shape(shape);
+  if (!errors_.empty()) throw InputError(std::move(errors_));
+  warnings.insert(warnings.end(), warnings_.begin(), warnings_.end());
+  return std::move(compiled_);
+}
+
+// pbrt's perspective camera: fov across the shorter side of the picture, whose screen window is then +-1, and +-aspect
+// along the longer.
+void Compiler::add_camera() {
+  const CameraDescription& camera = scene_.camera;
+  compiled_.camera_medium = medium_index(camera.medium, camera.location);
+  const double width = scene_.film.width, height = scene_.film.height;
+  std::array<double, 4> window = camera.screen_window;
+  if (window == std::array<double, 4>{}) {
+    const double x = std::max(1.0, width / height), y = std::max(1.0, height / width);
+    window = {-x, x, -y, y};
+  }
+  const double scale = std::tan(camera.fov * std::numbers::pi / 360);
+  CompiledCamera& c = compiled_.camera;
+  c.world_from_camera = camera.world_from_camera;
+  c.x0 = scale * window[0];
+  c.dx = scale * (window[1] - window[0]) / width;
+  c.y0 = scale * window[3];
+  c.dy = -scale * (window[3] - window[2]) / height;
+}
+
+void Compiler::add_integrator() {
+  const IntegratorDescription& from = scene_.integrator;
+  CompiledIntegrator& to = compiled_.integrator;
+  to.max_depth = from.max_depth;
+  to.dda = from.traversal == Traversal::dda;
+  to.step = from.step;
+  const auto place = [&](float base, float spread) {
+    to.placement_base = base;
+    to.placement_spread = spread;
+  };
+  switch (from.placement) {
+    case Placement::start:
+      return place(0, 0);
+    case Placement::random:
+      return place(0, 1);
+    case Placement::middle:
+      return place(0.5f, 0);
+    case Placement::middle_random:
+      return place(0.25f, 0.5f);
+  }
+}
+
+void Compiler::add_lights() {
+  for (const LightDescription& light : scene_.lights) {
+    CompiledLight c;
+    if (const auto* point = std::get_if<PointLight>(&light.kind)) {
+      c.kind = CompiledLight::Kind::point;
+      c.position = point->from;
+      c.value = point->intensity;
+    } else if (const auto* distant = std::get_if<DistantLight>(&light.kind)) {
+      c.kind = CompiledLight::Kind::distant;
+      c.direction_to = distant->direction_to_light;
+      c.value = distant->radiance;
+    } else {
+      c.kind = CompiledLight::Kind::infinite;
+      c.value = std::get<InfiniteLight>(light.kind).radiance;
+    }
+    compiled_.lights.push_back(c);
+  }
+}
+
+void Compiler::error(const Location& location, const std::string& message) {
+  errors_.push_back({Severity::error, location, message, {}});
+}
+
+}  // namespace brume

@@ -1,0 +1,102 @@
+#include <algorithm>
+
+#include "compile/compiler.h"
+
+namespace brume {
+
+namespace {
+
+std::array<float, 3> to_float(Vector3 v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+CompiledMaterial compile_material(const MaterialDescription& material) {
+  CompiledMaterial c;
+  if (const auto* diffuse = std::get_if<DiffuseMaterial>(&material)) {
+    c.diffuse = diffuse->reflectance;
+  } else if (const auto* phong = std::get_if<BlinnPhongMaterial>(&material)) {
+    c.diffuse = phong->diffuse;
+    c.specular = phong->specular;
+    c.mirror = phong->reflection;
+    c.shininess = phong->shininess;
+  }
+  return c;
+}
+
+}  // namespace
+
+void Compiler::add_shape(const ShapeDescription& shape) {
+  const std::int32_t inside = medium_index(shape.inside, shape.location);
+  const std::int32_t outside = medium_index(shape.outside, shape.location);
+  if (std::holds_alternative<VolumeShape>(shape.kind)) {
+    if (inside == no_medium && shape.inside.empty())
+      error(shape.location, "Shape \"volume\" needs an inside medium; none is current");
+    else if (inside != no_medium && compiled_.media[static_cast<std::size_t>(inside)].grid < 0 && errors_.empty())
+      error(shape.location, "Shape \"volume\" needs a medium with bounds; \"" + shape.inside + "\" is homogeneous");
+    else if (inside != no_medium)
+      compiled_.free_volumes.push_back(inside);
+    return;
+  }
+  CompiledShape compiled;
+  if (!std::holds_alternative<InterfaceMaterial>(shape.material)) compiled.material = material_index(shape.material);
+  if (inside != outside) {
+    compiled.boundary = static_cast<std::int32_t>(compiled_.boundaries.size());
+    compiled_.boundaries.push_back({inside, outside});
+  }
+  if (compiled.material < 0 && compiled.boundary < 0) return;  // nothing to see or to enter
+  add_geometry(shape, compiled);
+  compiled_.shapes.push_back(compiled);
+}
+
+void Compiler::add_geometry(const ShapeDescription& shape, CompiledShape& compiled) {
+  compiled.kind = CompiledShape::Kind::mesh;
+  if (const auto* sphere = std::get_if<SphereShape>(&shape.kind)) {
+    CompiledSphere c;
+    c.world_from_object = shape.world_from_object * scale({sphere->radius, sphere->radius, sphere->radius});
+    c.object_from_world = inverse(c.world_from_object);
+    c.flip_normal = shape.reverse_orientation != (shape.world_from_object.determinant() < 0);
+    compiled.kind = CompiledShape::Kind::sphere;
+    compiled.index = static_cast<std::uint32_t>(compiled_.spheres.size());
+    compiled_.spheres.push_back(c);
+  } else if (const auto* mesh = std::get_if<TriangleMeshShape>(&shape.kind)) {
+    compiled.index = add_mesh(shape, mesh->positions, mesh->triangles, mesh->normals);
+  } else {
+    const auto& q = std::get<QuadShape>(shape.kind);
+    compiled.index =
+        add_mesh(shape, {q.origin, q.origin + q.edge_u, q.origin + q.edge_u + q.edge_v, q.origin + q.edge_v},
+                 {{0, 1, 2}, {0, 2, 3}}, {});
+  }
+}
+
+std::uint32_t Compiler::add_mesh(const ShapeDescription& shape, const std::vector<Vector3>& positions,
+                                 const std::vector<std::array<std::uint32_t, 3>>& triangles,
+                                 const std::vector<Vector3>& normals) {
+  CompiledMesh mesh;
+  mesh.first_vertex = static_cast<std::uint32_t>(compiled_.positions.size());
+  mesh.vertex_count = static_cast<std::uint32_t>(positions.size());
+  mesh.first_triangle = static_cast<std::uint32_t>(compiled_.triangles.size());
+  mesh.triangle_count = static_cast<std::uint32_t>(triangles.size());
+  mesh.has_normals = !normals.empty();
+  mesh.flip_normal = shape.reverse_orientation != (shape.world_from_object.determinant() < 0);
+  for (const Vector3& p : positions) compiled_.positions.push_back(to_float(shape.world_from_object.point(p)));
+  compiled_.triangles.insert(compiled_.triangles.end(), triangles.begin(), triangles.end());
+  if (mesh.has_normals) {
+    compiled_.normals.resize(mesh.first_vertex);  // earlier meshes may have none
+    for (const Vector3& n : normals) {
+      const Vector3 world = normalize(shape.world_from_object.normal(n));
+      compiled_.normals.push_back(to_float(shape.reverse_orientation ? -world : world));
+    }
+  }
+  compiled_.meshes.push_back(mesh);
+  return static_cast<std::uint32_t>(compiled_.meshes.size() - 1);
+}
+
+std::int32_t Compiler::material_index(const MaterialDescription& material) {
+  const CompiledMaterial c = compile_material(material);
+  const auto same = std::find(compiled_.materials.begin(), compiled_.materials.end(), c);
+  if (same != compiled_.materials.end()) return static_cast<std::int32_t>(same - compiled_.materials.begin());
+  compiled_.materials.push_back(c);
+  return static_cast<std::int32_t>(compiled_.materials.size() - 1);
+}
+
+}  // namespace brume

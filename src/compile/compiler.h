@@ -1,0 +1,52 @@
+// The state of one compilation, shared by the files of this folder.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "compiled/compiled_scene.h"
+#include "scene/description.h"
+
+namespace brume {
+
+class Compiler {
+ public:
+  Compiler(const SceneDescription& scene, int threads) : scene_(scene), threads_(threads) {}
+  // Throws InputError with all errors found.
+  CompiledScene run(std::vector<Diagnostic>& warnings);
+
+ private:
+  void add_camera();
+  void add_integrator();
+  void add_lights();
+
+  // The index of the medium called `name` in the compiled scene, which is added on first use; no_medium for "" and for
+  // names that are not defined (an error).
+  std::int32_t medium_index(const std::string& name, const Location& used_at);
+  CompiledMedium make_medium(const MediumDescription& medium);
+  int grid_index(const MediumDescription& medium, CompiledMedium& compiled);
+
+  void add_shape(const ShapeDescription& shape);
+  void add_geometry(const ShapeDescription& shape, CompiledShape& compiled);
+  std::uint32_t add_mesh(const ShapeDescription& shape, const std::vector<Vector3>& positions,
+                         const std::vector<std::array<std::uint32_t, 3>>& triangles,
+                         const std::vector<Vector3>& normals);
+  std::int32_t material_index(const MaterialDescription& material);
+
+  void error(const Location& location, const std::string& message);
+
+  const SceneDescription& scene_;
+  int threads_;
+  CompiledScene compiled_;
+  std::vector<Diagnostic> errors_, warnings_;
+  std::map<std::string, std::int32_t> media_;  // by name
+  struct LoadedGrid {
+    int index;
+    Transform medium_from_index;
+  };
+  std::map<std::string, LoadedGrid> grids_;  // by file, grid, storage and interpolation
+};
+
+}  // namespace brume

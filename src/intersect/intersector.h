@@ -1,0 +1,63 @@
+// Rays against surfaces: the only place that knows Embree. Built from CompiledScene's geometry.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "compiled/compiled_scene.h"
+
+namespace brume {
+
+// As far as a ray goes that nothing stops. Finite, so that a coefficient of 0 times it is 0.
+constexpr float far_away = 1e30f;
+
+// A ray in world space; the direction has unit length, so t is a distance.
+struct Ray {
+  kernel::vec3 origin, direction;
+  float t_max = far_away;
+  kernel::vec3 at(float t) const { return origin + t * direction; }
+};
+
+struct SurfaceHit {
+  float t = 0;
+  int shape = -1;
+  // Unit length. The geometric normal points out of the shape (ReverseOrientation included); the shading normal is on
+  // its side.
+  kernel::vec3 normal, shading_normal;
+};
+
+// Where a ray passes the boundary of media.
+struct Crossing {
+  int ray = 0;  // index into the rays asked about
+  float t = 0;
+  int shape = -1;
+  bool inwards = false;  // against the shape's normal
+};
+
+class Intersector {
+ public:
+  // `scene` must outlive this.
+  explicit Intersector(const CompiledScene& scene);
+  ~Intersector();
+
+  bool has_surfaces() const;
+  bool has_boundaries() const;
+
+  // The first surface along the ray; shapes without a material do not count.
+  bool nearest_surface(const Ray& ray, SurfaceHit& hit) const;
+
+  // blocked[i] = 1 where a surface lies within (0, t_max) of rays[i], else 0.
+  void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
+
+  // All passages through boundaries of media along the whole of each ray, t_max ignored, sorted by ray and t. Where a
+  // ray meets an edge shared by two triangles, that is one passage.
+  void crossings(std::span<const Ray> rays, std::vector<Crossing>& found) const;
+
+ private:
+  struct Embree;
+  std::unique_ptr<Embree> embree_;
+};
+
+}  // namespace brume

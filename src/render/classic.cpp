@@ -1,0 +1,287 @@
+#include "render/classic.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/phase.h"
+
+namespace brume {
+
+using kernel::vec3;
+
+namespace {
+
+constexpr float negligible_transmittance = 1e-4f;
+// Steps whose densities are looked up together.
+constexpr int batch_size = 64;
+// With random placements, the share of scattered light that one shadow ray stands for.
+constexpr float faint_share = 1.0f / 32;
+
+// How far a ray starts from the surface that it leaves, against hitting it again: some tens of roundings of the hit's
+// coordinates and of its distance.
+vec3 leave_surface(vec3 p, vec3 n, float t) {
+  const float extent = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), t});
+  return p + (8e-6f * extent) * n;
+}
+
+float clamped_cosine(vec3 a, vec3 b) { return std::max(0.0f, dot(a, b)); }
+
+// diffuse / pi + specular (s + 8) / (8 pi) (n.h)^s: the factor keeps the highlight's energy for every shininess.
+// Source: T. Akenine-Möller et al., Real-Time Rendering, 3rd ed., eq. 7.48.
+Spectrum blinn_phong(const CompiledMaterial& m, vec3 n, vec3 to_light, vec3 to_viewer) {
+  Spectrum f = std::numbers::inv_pi_v<float> * m.diffuse;
+  if (is_zero(m.specular)) return f;
+  const vec3 sum = to_light + to_viewer;
+  const float squared = dot(sum, sum);
+  const float cosine = squared > 0 ? clamped_cosine(n, sum) / std::sqrt(squared) : 0;
+  if (cosine > 0)
+    f = f + (m.shininess + 8) / (8 * std::numbers::pi_v<float>)*kernel::pow_positive(cosine, m.shininess) * m.specular;
+  return f;
+}
+
+}  // namespace
+
+ClassicIntegrator::ClassicIntegrator(const CompiledScene& scene, const Intersector& intersector,
+                                     const MediaAlongRay& media)
+    : scene_(scene), intersector_(intersector), media_(media), visibility_(scene, intersector, media) {}
+
+Spectrum ClassicIntegrator::radiance(Ray ray, RandomStream& random) {
+  Spectrum result, throughput = constant_spectrum(1);
+  for (int scatterings = 0;; ++scatterings) {
+    SurfaceHit hit;
+    const bool is_hit = intersector_.nearest_surface(ray, hit);
+    if (is_hit) ray.t_max = hit.t;
+    const bool scatters = scatterings < scene_.integrator.max_depth;
+    Spectrum transmittance = constant_spectrum(1);
+    result = result + throughput * cross_media(ray, scatters, random, transmittance);
+    throughput = throughput * transmittance;
+    if (!is_hit) return result + throughput * background();
+    if (!scatters || is_zero(throughput)) return result;
+
+    vec3 side = hit.normal, shading = hit.shading_normal;
+    if (dot(side, ray.direction) > 0) side = -side, shading = -shading;
+    hit.normal = side;
+    hit.shading_normal = shading;
+    result = result + throughput * direct_light(ray, hit, random);
+
+    const auto shape = static_cast<std::size_t>(hit.shape);
+    throughput = throughput * scene_.materials[static_cast<std::size_t>(scene_.shapes[shape].material)].mirror;
+    if (is_zero(throughput)) return result;
+    const vec3 reflected = normalize(ray.direction - (2 * dot(ray.direction, shading)) * shading);
+    if (dot(reflected, side) <= 0) return result;
+    ray = {leave_surface(ray.at(hit.t), side, hit.t), reflected, far_away};
+  }
+}
+
+// What the media along the ray add, and in `transmittance` what they leave of what lies behind them.
+Spectrum ClassicIntegrator::cross_media(const Ray& ray, bool scatters, RandomStream& random, Spectrum& transmittance) {
+  complete_ = media_.find({&ray, 1}, spans_, crossings_) && complete_;
+  points_.clear();
+  scatterings_.clear();
+  find_cuts();
+  Spectrum emitted;
+  const CompiledIntegrator& settings = scene_.integrator;
+  if (settings.placement_spread > 0) shares_seen_ = random.next();
+  for (std::size_t i = 0; i + 1 < cuts_.size(); ++i) {
+    const float t_begin = cuts_[i], t_end = cuts_[i + 1];
+    const float longest = longest_step(t_begin, t_end);
+    if (active_.empty()) continue;
+    const int count = static_cast<int>(std::clamp(std::ceil((t_end - t_begin) / longest), 1.0f, 1048576.0f));
+    const float length = (t_end - t_begin) / static_cast<float>(count);
+    for (int first = 0; first < count; first += batch_size) {
+      place_steps(t_begin, length, first, std::min(count, first + batch_size), random);
+      find_densities();
+      for (std::size_t k = 0; k < steps_.size(); ++k) {
+        emitted = emitted + take_step(ray, k, scatters, transmittance);
+        if (max_value(transmittance) >= negligible_transmittance) continue;
+        transmittance = {};
+        return emitted + in_scattering(ray, random);
+      }
+    }
+  }
+  return emitted + in_scattering(ray, random);
+}
+
+// Steps [first, last) of equal length from t_begin on, with a sample in each.
+void ClassicIntegrator::place_steps(float t_begin, float length, int first, int last, RandomStream& random) {
+  const CompiledIntegrator& settings = scene_.integrator;
+  steps_.clear();
+  sample_t_.clear();
+  for (int k = first; k < last; ++k) {
+    const float u = settings.placement_spread > 0 ? random.next() : 0;
+    steps_.push_back({t_begin + length * static_cast<float>(k), length});
+    sample_t_.push_back(
+        kernel::march_position(t_begin, length, k, settings.placement_base, settings.placement_spread, u));
+  }
+}
+
+// The places along the ray between which the set of media is constant, and with DDA the cell of each grid too.
+void ClassicIntegrator::find_cuts() {
+  cuts_.clear();
+  for (const MediumSpan& span : spans_) {
+    cuts_.push_back(span.t_begin);
+    cuts_.push_back(span.t_end);
+    const CompiledMedium& medium = scene_.media[static_cast<std::size_t>(span.medium)];
+    if (!scene_.integrator.dda || medium.grid < 0) continue;
+    const float shift = medium.linear ? 0.5f : 0;
+    kernel::Dda walk = kernel::dda_start(span.entry_index - vec3(shift, shift, shift), span.direction_index);
+    for (;;) {
+      const float t = span.t_begin + kernel::dda_cell_exit(walk);
+      if (!(t < span.t_end)) break;
+      cuts_.push_back(t);
+      kernel::dda_step(walk);
+    }
+  }
+  std::sort(cuts_.begin(), cuts_.end());
+  cuts_.erase(std::unique(cuts_.begin(), cuts_.end()), cuts_.end());
+}
+
+// Finds the media that are active in [t_begin, t_end] and the longest step that they allow there.
+float ClassicIntegrator::longest_step(float t_begin, float t_end) {
+  active_.clear();
+  float longest = far_away;
+  for (const MediumSpan& span : spans_) {
+    if (span.t_begin > t_begin || span.t_end < t_end) continue;
+    active_.push_back(span);
+    const CompiledMedium& medium = scene_.media[static_cast<std::size_t>(span.medium)];
+    if (scene_.integrator.dda && medium.grid >= 0) continue;  // one cell already
+    longest = std::min(longest, march_step(scene_, medium, span.t_end - span.t_begin));
+  }
+  return longest;
+}
+
+// The density of each active medium in each step: at the step's sample, or with DDA its mean over the step.
+void ClassicIntegrator::find_densities() {
+  densities_.resize(active_.size() * batch_size);
+  for (std::size_t i = 0; i < active_.size(); ++i) {
+    const MediumSpan& span = active_[i];
+    const CompiledMedium& medium = scene_.media[static_cast<std::size_t>(span.medium)];
+    const std::span<float> density = std::span(densities_).subspan(i * batch_size, steps_.size());
+    if (medium.grid < 0) {
+      std::fill(density.begin(), density.end(), 1.0f);
+    } else if (scene_.integrator.dda) {
+      for (std::size_t k = 0; k < steps_.size(); ++k) density[k] = mean_density(span, medium, steps_[k]);
+    } else {
+      sample_density(scene_.grids[static_cast<std::size_t>(medium.grid)].view(), medium.linear, span.entry_index,
+                     span.direction_index, span.t_begin, sample_t_, density);
+    }
+    for (float& d : density) d *= static_cast<float>(span.count);
+  }
+}
+
+// The mean density over a step that lies within one cell.
+float ClassicIntegrator::mean_density(const MediumSpan& span, const CompiledMedium& medium, const Step& step) const {
+  const kernel::BrickGrid grid = scene_.grids[static_cast<std::size_t>(medium.grid)].view();
+  const float shift = medium.linear ? 0.5f : 0;
+  const vec3 origin = span.entry_index - vec3(shift, shift, shift);
+  const float begin = step.t_begin - span.t_begin, end = begin + step.length;
+  const vec3 middle = origin + (0.5f * (begin + end)) * span.direction_index;
+  const int x = kernel::floor_to_int(middle.x), y = kernel::floor_to_int(middle.y), z = kernel::floor_to_int(middle.z);
+  if (!medium.linear) return kernel::grid_voxel(grid, x, y, z);
+  const kernel::Cell cell = kernel::grid_cell(grid, x, y, z);
+  return kernel::cell_mean_linear(cell, x, y, z, origin, span.direction_index, begin, end);
+}
+
+// Crosses one step: returns what it emits, takes note of what it scatters, and lowers the transmittance.
+Spectrum ClassicIntegrator::take_step(const Ray& ray, std::size_t step, bool scatters, Spectrum& transmittance) {
+  Spectrum optical_depth, emission;
+  const std::size_t first = scatterings_.size();
+  for (std::size_t i = 0; i < active_.size(); ++i) {
+    const float amount = steps_[step].length * densities_[i * batch_size + step];
+    if (amount == 0) continue;
+    const MediumSpan& span = active_[i];
+    const CompiledMedium& medium = scene_.media[static_cast<std::size_t>(span.medium)];
+    optical_depth = optical_depth + amount * medium.sigma_t;
+    emission = emission + amount * medium.emission;
+    if (scatters && !is_zero(medium.sigma_s)) scatterings_.push_back({span.medium, amount * medium.sigma_s});
+  }
+  if (is_zero(optical_depth)) return {};
+  Spectrum share;
+  for (int c = 0; c < channel_count; ++c) share[c] = transmittance[c] * kernel::mean_transmittance(optical_depth[c]);
+  for (std::size_t i = first; i < scatterings_.size(); ++i) scatterings_[i].weight = scatterings_[i].weight * share;
+  if (scatterings_.size() > first && chosen(first))
+    points_.push_back({ray.at(sample_t_[step]), first, scatterings_.size()});
+  else
+    scatterings_.resize(first);
+  // T exp(-tau) = T - T (1 - exp(-tau)): over many thin steps of equal depth, rounding errors of exp would add up.
+  for (int c = 0; c < channel_count; ++c)
+    transmittance[c] = std::max(0.0f, transmittance[c] - share[c] * optical_depth[c]);
+  return emission * share;
+}
+
+// Whether the point whose scatterings begin at `first` gets shadow rays. With placements that are not random, always.
+// With random ones a faint point is one of many, and one stands for all: as shares add up along the ray, a point is
+// chosen whenever the sum passes another whole faint_share, and counts as that much. The sum starts at a random
+// fraction, so a point's chance is its share over faint_share, which its weight is divided by: systematic sampling,
+// without bias.
+bool ClassicIntegrator::chosen(std::size_t first) {
+  if (scene_.integrator.placement_spread == 0) return true;
+  Spectrum total;
+  for (std::size_t i = first; i < scatterings_.size(); ++i) total = total + scatterings_[i].weight;
+  const float chance = max_value(total) / faint_share;
+  if (chance >= 1) return true;
+  shares_seen_ += chance;
+  if (!(shares_seen_ >= 1)) return false;
+  shares_seen_ -= 1;
+  for (std::size_t i = first; i < scatterings_.size(); ++i)
+    scatterings_[i].weight = (1 / chance) * scatterings_[i].weight;
+  return true;
+}
+
+// The light that the points taken note of scatter towards the ray's origin.
+Spectrum ClassicIntegrator::in_scattering(const Ray& ray, RandomStream& random) {
+  Spectrum result;
+  if (points_.empty()) return result;
+  for (const CompiledLight& light : scene_.lights) {
+    light_samples_.clear();
+    shadow_rays_.clear();
+    for (const Point& point : points_) {
+      light_samples_.push_back(sample_light_from_point(light, point.position, random));
+      shadow_rays_.push_back(light_samples_.back().ray);
+    }
+    visibility_.find(shadow_rays_, random, arriving_);
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      // Light travels against the shadow ray, and is scattered against the camera's: the two signs cancel.
+      const float mu = std::clamp(dot(shadow_rays_[i].direction, ray.direction), -1.0f, 1.0f);
+      const Spectrum light_here = arriving_[i] * light_samples_[i].value;
+      for (std::size_t k = points_[i].first; k < points_[i].last; ++k) {
+        const CompiledMedium& medium = scene_.media[static_cast<std::size_t>(scatterings_[k].medium)];
+        result = result + phase_eval(medium, mu) * light_here * scatterings_[k].weight;
+      }
+    }
+  }
+  return result;
+}
+
+Spectrum ClassicIntegrator::direct_light(const Ray& ray, const SurfaceHit& hit, RandomStream& random) {
+  const auto shape = static_cast<std::size_t>(hit.shape);
+  const CompiledMaterial& material = scene_.materials[static_cast<std::size_t>(scene_.shapes[shape].material)];
+  Spectrum result;
+  if (is_zero(material.diffuse) && is_zero(material.specular)) return result;
+  const vec3 p = ray.at(hit.t), start = leave_surface(p, hit.normal, hit.t);
+  light_samples_.clear();
+  shadow_rays_.clear();
+  for (const CompiledLight& light : scene_.lights) {
+    const LightSample s = sample_light_from_surface(light, p, hit.shading_normal, random);
+    if (dot(s.ray.direction, hit.normal) <= 0 || dot(s.ray.direction, hit.shading_normal) <= 0) continue;
+    light_samples_.push_back(s);
+    shadow_rays_.push_back({start, s.ray.direction, s.ray.t_max});
+  }
+  visibility_.find(shadow_rays_, random, arriving_);
+  for (std::size_t i = 0; i < shadow_rays_.size(); ++i) {
+    const vec3 to_light = shadow_rays_[i].direction;
+    const Spectrum f = blinn_phong(material, hit.shading_normal, to_light, -ray.direction);
+    result = result + dot(to_light, hit.shading_normal) * f * light_samples_[i].value * arriving_[i];
+  }
+  return result;
+}
+
+Spectrum ClassicIntegrator::background() const {
+  Spectrum result;
+  for (const CompiledLight& light : scene_.lights)
+    if (light.kind == CompiledLight::Kind::infinite) result = result + light.value;
+  return result;
+}
+
+}  // namespace brume

@@ -1,0 +1,80 @@
+// Integrator "classic": camera rays with Blinn-Phong surfaces, mirrors, hard shadows, and media with absorption,
+// emission and single scattering, crossed by ray marching or by DDA. What a graphics course teaches first, done with
+// care.
+//
+// Along a ray with throughput 1,
+//   L = sum over steps of T(t_i) (1 - exp(-tau_i)) / tau_i (sigma_s_i Ls(t_i) + sigma_a_i Le) length_i
+//       + T(t_surface) (surface's reflected light),
+// where tau_i is the step's optical depth, T the transmittance up to it, and Ls = sum over lights of phase function
+// times the light that arrives. Within a step the coefficients are those of its one sample (march) or its exact mean
+// (dda); a bias of O(step^2) for placements about the middle and O(step) for "start" is left. A path of the camera ends
+// where its transmittance falls below 1e-4.
+// Source: N. Max, "Optical Models for Direct Volume Rendering", TVCG 1(2), 1995, section 5; T. Whitted, "An Improved
+// Illumination Model for Shaded Display", CACM 23(6), 1980.
+#pragma once
+
+#include <vector>
+
+#include "render/lights.h"
+#include "render/visibility.h"
+
+namespace brume {
+
+// One to each worker: it keeps its arrays from sample to sample.
+class ClassicIntegrator {
+ public:
+  ClassicIntegrator(const CompiledScene& scene, const Intersector& intersector, const MediaAlongRay& media);
+
+  // The radiance that arrives at the ray's origin.
+  Spectrum radiance(Ray ray, RandomStream& random);
+
+  // False once a ray met more than max_active_media media at a time.
+  bool complete() const { return complete_ && visibility_.complete(); }
+
+ private:
+  // A medium at a sample point of a ray, and the point's share of the light that it scatters.
+  struct Scattering {
+    int medium;
+    Spectrum weight;
+  };
+  struct Step {
+    float t_begin, length;
+  };
+  struct Point {
+    kernel::vec3 position;
+    std::size_t first, last;  // in scatterings_
+  };
+
+  Spectrum cross_media(const Ray& ray, bool scatters, RandomStream& random, Spectrum& transmittance);
+  void find_cuts();
+  float longest_step(float t_begin, float t_end);
+  void place_steps(float t_begin, float length, int first, int last, RandomStream& random);
+  void find_densities();
+  float mean_density(const MediumSpan& span, const CompiledMedium& medium, const Step& step) const;
+  Spectrum take_step(const Ray& ray, std::size_t step, bool scatters, Spectrum& transmittance);
+  bool chosen(std::size_t first);
+  Spectrum in_scattering(const Ray& ray, RandomStream& random);
+  Spectrum direct_light(const Ray& ray, const SurfaceHit& hit, RandomStream& random);
+  Spectrum background() const;
+
+  const CompiledScene& scene_;
+  const Intersector& intersector_;
+  const MediaAlongRay& media_;
+  Visibility visibility_;
+  bool complete_ = true;
+
+  std::vector<MediumSpan> spans_, active_;  // of the current ray; those that cover the current step
+  std::vector<Crossing> crossings_;
+  std::vector<float> cuts_;
+  std::vector<Step> steps_;       // a batch of consecutive steps,
+  std::vector<float> sample_t_;   // the place of each one's sample,
+  std::vector<float> densities_;  // and its densities: batch_size for each of active_
+  std::vector<Point> points_;
+  std::vector<Scattering> scatterings_;
+  float shares_seen_ = 0;
+  std::vector<LightSample> light_samples_;
+  std::vector<Ray> shadow_rays_;
+  std::vector<Spectrum> arriving_;
+};
+
+}  // namespace brume

@@ -1,0 +1,148 @@
+#include "render/media_along_ray.h"
+
+#include <algorithm>
+
+namespace brume {
+
+using kernel::vec3;
+
+namespace {
+
+// How many times over each medium is there, and since where along the ray. The set that a path carries.
+class ActiveMedia {
+ public:
+  struct Entry {
+    int medium;
+    int count;
+    float since;
+  };
+
+  // Adds `change` to the medium's count at t; calls leave(entry, t) for the stretch that ends there. False when full.
+  template <class Leave>
+  bool change(int medium, int change, float t, Leave leave) {
+    if (medium == no_medium || change == 0) return true;
+    Entry* entry = find_or_add(medium, t);
+    if (!entry) return false;
+    if (entry->count > 0 && t > entry->since) leave(*entry, t);
+    entry->count += change;
+    entry->since = t;
+    if (entry->count == 0) *entry = entries_[--size_];
+    return true;
+  }
+
+  std::span<Entry> entries() { return {entries_.data(), size_}; }
+
+ private:
+  Entry* find_or_add(int medium, float t) {
+    for (std::size_t i = 0; i < size_; ++i)
+      if (entries_[i].medium == medium) return &entries_[i];
+    if (size_ == entries_.size()) return nullptr;
+    entries_[size_] = {medium, 0, t};
+    return &entries_[size_++];
+  }
+
+  std::array<Entry, max_active_media> entries_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace
+
+MediaAlongRay::MediaAlongRay(const CompiledScene& scene, const Intersector& intersector)
+    : scene_(scene), intersector_(intersector) {
+  if (scene.camera_medium == no_medium) return;
+  const Vector3 eye = scene.camera.world_from_camera.point({});
+  const vec3 p(static_cast<float>(eye.x), static_cast<float>(eye.y), static_cast<float>(eye.z));
+  bool accounted = false;
+  for (const auto& [medium, count] : counts_at(p))
+    accounted = accounted || (medium == scene.camera_medium && count > 0);
+  if (!accounted) surrounding_medium_ = scene.camera_medium;
+}
+
+std::vector<std::pair<int, int>> MediaAlongRay::counts_at(vec3 p) const {
+  const Ray ray{p, normalize(vec3(0.577f, 0.591f, 0.563f)), far_away};  // a direction along no symmetry
+  std::vector<Crossing> crossings;
+  intersector_.crossings({&ray, 1}, crossings);
+  std::vector<std::pair<int, int>> counts;
+  const auto add = [&](int medium, int change) {
+    if (medium == no_medium) return;
+    const auto at = std::find_if(counts.begin(), counts.end(), [&](const auto& c) { return c.first == medium; });
+    if (at == counts.end())
+      counts.emplace_back(medium, change);
+    else
+      at->second += change;
+  };
+  add(surrounding_medium_, 1);
+  for (const Crossing& c : crossings) {
+    const auto shape = static_cast<std::size_t>(c.shape);
+    const CompiledBoundary& b = scene_.boundaries[static_cast<std::size_t>(scene_.shapes[shape].boundary)];
+    add(b.inside, c.inwards ? -1 : 1);
+    add(b.outside, c.inwards ? 1 : -1);
+  }
+  return counts;
+}
+
+bool MediaAlongRay::find(std::span<const Ray> rays, std::vector<MediumSpan>& spans,
+                         std::vector<Crossing>& scratch) const {
+  spans.clear();
+  intersector_.crossings(rays, scratch);
+  bool complete = true;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const std::size_t first = next;
+    while (next < scratch.size() && scratch[next].ray == static_cast<int>(i)) ++next;
+    complete = follow(rays[i], static_cast<int>(i), std::span(scratch).subspan(first, next - first), spans) && complete;
+    for (const int medium : scene_.free_volumes)
+      add_span(rays[i], {static_cast<int>(i), medium, 1, 0, rays[i].t_max, {0, 0, 0}, {0, 0, 0}}, spans);
+  }
+  return complete;
+}
+
+bool MediaAlongRay::follow(const Ray& ray, int ray_index, std::span<const Crossing> crossings,
+                           std::vector<MediumSpan>& spans) const {
+  ActiveMedia active;
+  const auto emit = [&](const ActiveMedia::Entry& e, float t) {
+    add_span(ray, {ray_index, e.medium, e.count, e.since, t, {0, 0, 0}, {0, 0, 0}}, spans);
+  };
+  const auto nothing = [](const ActiveMedia::Entry&, float) {};
+  const auto boundary = [&](const Crossing& c) -> const CompiledBoundary& {
+    const auto shape = static_cast<std::size_t>(c.shape);
+    return scene_.boundaries[static_cast<std::size_t>(scene_.shapes[shape].boundary)];
+  };
+
+  // At the origin: the surrounding medium less all changes ahead.
+  bool complete = active.change(surrounding_medium_, 1, 0, nothing);
+  for (const Crossing& c : crossings) {
+    complete = active.change(boundary(c).inside, c.inwards ? -1 : 1, 0, nothing) && complete;
+    complete = active.change(boundary(c).outside, c.inwards ? 1 : -1, 0, nothing) && complete;
+  }
+  for (const Crossing& c : crossings) {
+    if (c.t >= ray.t_max) break;
+    complete = active.change(boundary(c).inside, c.inwards ? 1 : -1, c.t, emit) && complete;
+    complete = active.change(boundary(c).outside, c.inwards ? -1 : 1, c.t, emit) && complete;
+  }
+  for (const auto& e : active.entries())
+    if (e.count > 0 && ray.t_max > e.since) emit(e, ray.t_max);
+  return complete;
+}
+
+void MediaAlongRay::add_span(const Ray& ray, MediumSpan span, std::vector<MediumSpan>& spans) const {
+  const CompiledMedium& medium = scene_.media[static_cast<std::size_t>(span.medium)];
+  if (medium.grid >= 0) {
+    const CompiledGrid& grid = scene_.grids[static_cast<std::size_t>(medium.grid)];
+    const auto& m = medium.index_from_world;
+    const Vector3 o = m.point({ray.origin.x, ray.origin.y, ray.origin.z});
+    const Vector3 d = m.vector({ray.direction.x, ray.direction.y, ray.direction.z});
+    const vec3 origin(static_cast<float>(o.x), static_cast<float>(o.y), static_cast<float>(o.z));
+    const vec3 direction(static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z));
+    const vec3 lo(grid.bounds_lo[0], grid.bounds_lo[1], grid.bounds_lo[2]);
+    const vec3 hi(grid.bounds_hi[0], grid.bounds_hi[1], grid.bounds_hi[2]);
+    const kernel::BoxSpan within = kernel::box_span(origin, direction, lo, hi, span.t_begin, span.t_end);
+    span.t_begin = within.t_enter;
+    span.t_end = within.t_enter + within.t_length;
+    span.entry_index = within.entry;
+    span.direction_index = direction;
+  }
+  if (span.t_end > span.t_begin) spans.push_back(span);
+}
+
+}  // namespace brume

@@ -1,0 +1,48 @@
+// Which media a ray crosses, and where: the rule of sets (docs/architecture.md, "Where media are").
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "compiled/compiled_scene.h"
+#include "intersect/intersector.h"
+
+namespace brume {
+
+// A stretch [t_begin, t_end] of a ray through one medium. Within a grid, clipped to the grid's bounds.
+struct MediumSpan {
+  int ray = 0;
+  int medium = no_medium;
+  int count = 1;  // how many times over the medium is there
+  float t_begin = 0, t_end = 0;
+  // For a grid: the ray restarted at t_begin, p_index = entry_index + (t - t_begin) direction_index.
+  kernel::vec3 entry_index{0, 0, 0}, direction_index{0, 0, 0};
+};
+
+class MediaAlongRay {
+ public:
+  // Finds, once, which medium surrounds all shapes: the one that the camera records, where the boundaries around the
+  // camera do not account for it.
+  MediaAlongRay(const CompiledScene& scene, const Intersector& intersector);
+
+  // The media along each ray from its origin to its t_max, in no particular order within a ray. At most
+  // max_active_media at a time are followed; returns false where there were more somewhere.
+  //
+  // How often each medium is there at the ray's origin follows from the crossings ahead: far away only the surrounding
+  // medium is left. So nothing is carried from ray to ray that rounding at a boundary could get wrong.
+  bool find(std::span<const Ray> rays, std::vector<MediumSpan>& spans, std::vector<Crossing>& scratch) const;
+
+  // The media at a point and how many times over each is there, free volumes apart. For messages and for the camera.
+  std::vector<std::pair<int, int>> counts_at(kernel::vec3 p) const;
+
+ private:
+  bool follow(const Ray& ray, int ray_index, std::span<const Crossing> crossings, std::vector<MediumSpan>& spans) const;
+  void add_span(const Ray& ray, MediumSpan span, std::vector<MediumSpan>& spans) const;
+
+  const CompiledScene& scene_;
+  const Intersector& intersector_;
+  std::int32_t surrounding_medium_ = no_medium;
+};
+
+}  // namespace brume

@@ -1,0 +1,84 @@
+#include "render/visibility.h"
+
+#include <algorithm>
+
+namespace brume {
+
+namespace {
+
+// An optical depth beyond which the transmittance (below 1e-11) needs no better value.
+constexpr float opaque_depth = 25;
+
+float smallest_positive(const Spectrum& s) {
+  float smallest = 0;
+  for (int c = 0; c < channel_count; ++c)
+    if (s[c] > 0 && (smallest == 0 || s[c] < smallest)) smallest = s[c];
+  return smallest;
+}
+
+}  // namespace
+
+float march_step(const CompiledScene& scene, const CompiledMedium& medium, float chord) {
+  if (scene.integrator.step > 0) return static_cast<float>(scene.integrator.step);
+  return medium.grid >= 0 ? static_cast<float>(medium.default_step) : chord / 64;
+}
+
+Visibility::Visibility(const CompiledScene& scene, const Intersector& intersector, const MediaAlongRay& media)
+    : scene_(scene), intersector_(intersector), media_(media) {}
+
+void Visibility::find(std::span<const Ray> rays, RandomStream& random, std::vector<Spectrum>& transmittance) {
+  transmittance.assign(rays.size(), Spectrum{});
+  blocked_.resize(rays.size());
+  intersector_.occluded(rays, blocked_);
+  open_rays_.clear();
+  open_indices_.clear();
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (blocked_[i]) continue;
+    open_rays_.push_back(rays[i]);
+    open_indices_.push_back(i);
+  }
+
+  complete_ = media_.find(open_rays_, spans_, crossings_) && complete_;
+  std::stable_sort(spans_.begin(), spans_.end(),
+                   [](const MediumSpan& a, const MediumSpan& b) { return a.medium < b.medium; });
+  optical_depth_.assign(open_rays_.size(), Spectrum{});
+  for (auto first = spans_.begin(); first != spans_.end();) {
+    const auto last = std::find_if(first, spans_.end(), [&](const auto& s) { return s.medium != first->medium; });
+    add_optical_depths(first->medium, {first, last}, random);
+    first = last;
+  }
+  for (std::size_t i = 0; i < open_rays_.size(); ++i)
+    for (int c = 0; c < channel_count; ++c)
+      transmittance[open_indices_[i]][c] = kernel::beer_lambert(optical_depth_[i][c]);
+}
+
+void Visibility::add_optical_depths(int medium_index, std::span<const MediumSpan> spans, RandomStream& random) {
+  const CompiledMedium& medium = scene_.media[static_cast<std::size_t>(medium_index)];
+  const float smallest = smallest_positive(medium.sigma_t);
+  if (smallest == 0) return;
+  const auto add = [&](const MediumSpan& span, float density_integral) {
+    const float amount = static_cast<float>(span.count) * density_integral;
+    Spectrum& tau = optical_depth_[static_cast<std::size_t>(span.ray)];
+    tau = tau + amount * medium.sigma_t;
+  };
+  if (medium.grid < 0) {
+    for (const MediumSpan& span : spans) add(span, span.t_end - span.t_begin);
+    return;
+  }
+  const CompiledIntegrator& settings = scene_.integrator;
+  const bool random_places = !settings.dda && settings.placement_spread > 0;
+  stretches_.clear();
+  for (const MediumSpan& span : spans)
+    stretches_.add(span.entry_index, span.direction_index, span.t_end - span.t_begin,
+                   random_places ? random.next_bits() : 0);
+  const DensityQuadrature quadrature{medium.linear,
+                                     settings.dda,
+                                     march_step(scene_, medium, 0),
+                                     settings.placement_base,
+                                     settings.placement_spread,
+                                     opaque_depth / smallest};
+  integrate_density(scene_.grids[static_cast<std::size_t>(medium.grid)].view(), quadrature, stretches_, integral_);
+  for (std::size_t i = 0; i < spans.size(); ++i) add(spans[i], integral_[i]);
+}
+
+}  // namespace brume

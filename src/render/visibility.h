@@ -1,0 +1,46 @@
+// What of a light's radiance arrives: nothing behind a surface, exp(-tau) through media.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "render/density.h"
+#include "render/media_along_ray.h"
+#include "render/random_stream.h"
+
+namespace brume {
+
+// The step of ray marching through a medium, in world units: the integrator's, or where it has none half the smallest
+// edge of the grid's voxels, or for a homogeneous medium 1/64 of the chord.
+float march_step(const CompiledScene& scene, const CompiledMedium& medium, float chord);
+
+// Shadow rays, many at a time. One to each worker: it keeps its arrays from call to call.
+class Visibility {
+ public:
+  Visibility(const CompiledScene& scene, const Intersector& intersector, const MediaAlongRay& media);
+
+  // transmittance[i] = the fraction of the light that crosses rays[i], per channel.
+  void find(std::span<const Ray> rays, RandomStream& random, std::vector<Spectrum>& transmittance);
+
+  // False once a ray met more than max_active_media media at a time.
+  bool complete() const { return complete_; }
+
+ private:
+  void add_optical_depths(int medium_index, std::span<const MediumSpan> spans, RandomStream& random);
+
+  const CompiledScene& scene_;
+  const Intersector& intersector_;
+  const MediaAlongRay& media_;
+  bool complete_ = true;
+
+  std::vector<std::uint8_t> blocked_;
+  std::vector<Ray> open_rays_;
+  std::vector<std::size_t> open_indices_;
+  std::vector<MediumSpan> spans_;
+  std::vector<Crossing> crossings_;
+  std::vector<Spectrum> optical_depth_;  // of the open rays
+  DensityStretches stretches_;
+  std::vector<float> integral_;
+};
+
+}  // namespace brume

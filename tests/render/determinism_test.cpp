@@ -1,0 +1,76 @@
+// The picture is a function of the scene and the seed: not of threads, nor of how the samples are split into calls.
+#include <gtest/gtest.h>
+
+#include "compile/compile.h"
+#include "render/backend.h"
+#include "render/scenes.h"
+
+namespace brume {
+namespace {
+
+// Surfaces, a homogeneous medium in a sphere, a free grid that overlaps it, all kinds of lights; 40 x 24 pixels.
+SceneDescription busy_scene() {
+  SceneDescription s;
+  s.film.width = 40;
+  s.film.height = 24;
+  s.sampler.seed = 7;
+  s.camera.world_from_camera = translate({0, 0.5, -4});
+  s.camera.fov = 50;
+  s.integrator.max_depth = 2;
+  s.integrator.placement = Placement::random;
+  s.integrator.step = 0.1;
+  std::vector<float> density(8 * 8 * 8);
+  for (std::size_t i = 0; i < density.size(); ++i) density[i] = static_cast<float>((i * 37) % 11) / 11;
+  s.media = {homogeneous_medium("fog", 0.1f, 0.5f),
+             grid_medium("smoke", {-1, -0.5, -1}, {1, 1, 1}, {8, 8, 8}, density, 1, 2)};
+  set_phase(s.media[1], "henyey_greenstein", {0.5f});
+  s.shapes = {square_facing_y({0, -1, 0}, 6, 0.6f), sphere_shape({0.5, 0, 0}, 0.9, "fog"), free_volume("smoke"),
+              square_facing_z({0, 1, 3}, 2, 0.3f)};
+  s.shapes[3].material =
+      BlinnPhongMaterial{constant_spectrum(0.2f), constant_spectrum(0.3f), constant_spectrum(0.4f), 20};
+  s.lights = {sky(0.3f), distant_light({1, 2, -1}, 1), point_light({-1, 1, -1}, 1)};
+  return s;
+}
+
+TEST(Determinism, AnyNumberOfThreadsGivesTheSameBits) {
+  const Image one = render_film(busy_scene(), 3, 1).image();
+  for (const int threads : {2, 3, 8}) EXPECT_EQ(render_film(busy_scene(), 3, threads).image().pixels, one.pixels);
+}
+
+TEST(Determinism, AnySplitOfTheSamplesGivesTheSameBits) {
+  std::vector<Diagnostic> warnings;
+  const CompiledScene compiled = compile(busy_scene(), 1, warnings);
+  const auto backend = make_cpu_backend();
+  backend->prepare(compiled);
+  const auto render = [&](const std::vector<int>& ends) {
+    Film film(compiled.width, compiled.height);
+    int first = 0;
+    for (const int last : ends) {
+      backend->render(first, last, 2, film, [](double) { return true; });
+      first = last;
+    }
+    return film.image().pixels;
+  };
+  EXPECT_EQ(render({1, 2, 3, 4, 5}), render({5}));
+  EXPECT_EQ(render({2, 5}), render({5}));
+}
+
+TEST(Determinism, AnotherSeedGivesAnotherPicture) {
+  SceneDescription s = busy_scene();
+  const Image one = render_film(s, 1).image();
+  s.sampler.seed = 8;
+  EXPECT_NE(render_film(s, 1).image().pixels, one.pixels);
+}
+
+TEST(Determinism, AStoppedRenderSaysSo) {
+  std::vector<Diagnostic> warnings;
+  const CompiledScene compiled = compile(busy_scene(), 1, warnings);
+  const auto backend = make_cpu_backend();
+  backend->prepare(compiled);
+  Film film(compiled.width, compiled.height);
+  EXPECT_FALSE(backend->render(0, 1, 1, film, [](double) { return false; }));
+  EXPECT_TRUE(backend->render(0, 1, 1, film, [](double) { return true; }));
+}
+
+}  // namespace
+}  // namespace brume
