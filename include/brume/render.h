@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,7 @@
 namespace brume {
 
 struct Progress {
-  double fraction = 0;            // of the whole, 0 to 1
+  double fraction = 0;  // of the whole, 0 to 1
   double elapsed_seconds = 0;
   double remaining_seconds = -1;  // below 0: not known yet
 };
@@ -20,13 +21,15 @@ struct RenderOptions {
   int threads = 0;  // 0: one per core
   // Called now and then from the thread that called render; false stops the render early.
   std::function<bool(const Progress&)> on_progress;
+  // Called from the same thread with each warning, ready to be shown, as soon as it is known.
+  std::function<void(const std::string&)> on_warning;
 };
 
 // A picture with what its file says of it.
 struct Picture {
   int width = 0, height = 0;
   std::vector<float> pixels;  // scene-linear Rec.709, rows from the top, three floats a pixel
-  int samples_per_pixel = 0;  // as rendered
+  int samples_per_pixel = 0;  // as rendered; of a partial picture, what every pixel has at least
   bool partial = false;       // stopped early
   double seconds = 0;
   std::int64_t invalid_samples = 0;  // samples that were not finite and were left out
@@ -42,7 +45,10 @@ struct Picture {
   std::shared_ptr<const Metadata> metadata;
 };
 
-// Throws Error where the scene cannot be rendered (a missing volume file, say).
+// Renders a scene. Stopped early, it returns what there is, marked partial. The picture's bits depend on the scene and
+// on the instruction set, not on the number of threads. The environment variable BRUME_ISA (avx512, avx2, sse4 or
+// scalar) chooses a lower instruction set than the machine's best. Throws Error where the scene cannot be rendered (a
+// missing volume file, say).
 Picture render(const Scene& scene, const RenderOptions& options = {});
 
 }  // namespace brume

@@ -19,8 +19,8 @@ class Error : public std::runtime_error {
 
 // Changes to what a scene says; what is not set stays as the scene has it.
 struct SceneOptions {
-  std::optional<int> width, height;
-  std::optional<int> samples_per_pixel;
+  std::optional<int> width, height;      // pixels, 1 to 65536, together at most 2^28
+  std::optional<int> samples_per_pixel;  // 1 to 2^24
   std::optional<std::uint32_t> seed;
   std::optional<std::string> integrator;
 };
@@ -28,9 +28,10 @@ struct SceneOptions {
 class Scene {
  public:
   // Reads a scene (.pbrt) or frames a volume (.vdb, .nvdb). Warnings, ready to be shown, are appended to `warnings`.
+  // Throws Error, as all that follow do.
   static Scene load(const std::string& path, std::vector<std::string>& warnings);
-  // A volume on its own: the grid framed by a camera, lit by sun and sky, its extinction scaled to the optical depth that
-  // framing_note() states.
+  // A volume on its own: the grid framed by a camera, lit by sun and sky, its extinction scaled to the optical depth
+  // that framing_note() states. `grid` empty: "density", or the only grid that can be rendered.
   static Scene frame_volume(const std::string& path, const std::string& grid = {});
   // The built-in example: a procedural cloud over a ground.
   static Scene example();
@@ -60,7 +61,8 @@ class Scene {
 // What a file holds, as lines to be shown: a scene's entities, or a volume file's grids.
 std::string describe_file(const std::string& path);
 
-// The version, the instruction sets that this machine offers and the one in use.
+// The version, the instruction sets that this machine offers and the one in use. Throws Error where BRUME_ISA is set to
+// a name that is unknown or that the machine does not have.
 std::string version_text();
 
 }  // namespace brume

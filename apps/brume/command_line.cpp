@@ -1,0 +1,56 @@
+#include "command_line.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace {
+
+// Levenshtein's distance.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (const char c : a) {
+    std::size_t diagonal = row[0]++;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t substituted = diagonal + (c == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({substituted, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+// The option of `app` that `given` may have been meant to be, or "".
+std::string nearest_option(const CLI::App& app, const std::string& given) {
+  const std::string name = given.substr(0, given.find('='));
+  std::string nearest;
+  std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& long_name : option->get_lnames())
+      if (const std::size_t distance = edit_distance(name, "--" + long_name); distance < least) {
+        least = distance;
+        nearest = "--" + long_name;
+      }
+  return nearest;
+}
+
+std::string unexpected(const CLI::App& app, const std::string& argument) {
+  if (!argument.starts_with('-')) return "unexpected argument \"" + argument + "\"";
+  const std::string nearest = nearest_option(app, argument);
+  return "unknown option " + argument + (nearest.empty() ? "" : ", did you mean " + nearest + "?");
+}
+
+}  // namespace
+
+void parse(CLI::App& app, std::vector<std::string> arguments) {
+  // What is left over is looked at here and not by CLI11, whose message could not name the nearest option.
+  app.allow_extras();
+  std::reverse(arguments.begin(), arguments.end());  // the order in which CLI11 takes them
+  try {
+    app.parse(arguments);
+  } catch (const CLI::ParseError& e) {
+    throw UsageError(e.what());
+  }
+  if (const std::vector<std::string> extras = app.remaining(); !extras.empty())
+    throw UsageError(unexpected(app, extras.front()));
+}

@@ -1,0 +1,16 @@
+// What the commands share in reading their arguments.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+// Arguments that make no sense; what() is ready to be shown.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Parses; throws UsageError, which for an unknown option names the nearest valid one.
+void parse(CLI::App& app, std::vector<std::string> arguments);

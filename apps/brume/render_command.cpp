@@ -1,0 +1,168 @@
+#include "render_command.h"
+
+#include <charconv>
+#include <cstdint>
+#include <cstdio>
+#include <optional>
+
+#include "brume/brume.h"
+#include "command_line.h"
+#include "interrupt.h"
+#include "progress_line.h"
+
+namespace {
+
+constexpr int exit_interrupted = 130;  // what shells give for a program that SIGINT ended
+
+const char* const help_text =
+    R"(Usage: brume SCENE|VOLUME [options]     render a scene (.pbrt) or a volume (.vdb, .nvdb)
+       brume --example [options]         render the built-in example, a cloud over a ground
+       brume info FILE                   show what a scene, a volume or a picture holds
+
+  -o, --output FILE    where the picture goes: .png, .exr or .pfm; may be repeated.
+                       Default: the file that the scene names; for a volume, VOLUME.png
+  --spp N              samples per pixel
+  --seed N             of the random numbers; the same seed gives the same picture
+  --nthreads N         default 0: one per core
+  --resolution WxH     in pixels
+  --integrator NAME    instead of the scene's
+  --grid NAME          of a volume file; default "density", or the only one there is
+  --write-scene FILE   save the scene as .pbrt; without -o, instead of rendering
+  --quiet              errors only
+  --version, --help    BRUME_ISA=avx512|avx2|sse4|scalar in the environment chooses
+                       the instruction set that --version shows
+
+A volume on its own is framed, lit by sun and sky and scaled to a stated optical depth.
+Ctrl-C saves what is rendered so far; a second Ctrl-C ends at once.
+
+  brume smoke.vdb -o smoke.png -o smoke.exr
+  brume scene.pbrt --spp 64 --resolution 1280x720
+  brume smoke.vdb --write-scene smoke.pbrt)";
+
+struct Arguments {
+  std::string file, grid, write_scene;
+  std::vector<std::string> outputs;
+  int threads = 0;
+  bool example = false, quiet = false, help = false, version = false;
+  brume::SceneOptions changes;
+};
+
+// A whole number from lo to hi.
+std::int64_t parse_number(const std::string& option, const std::string& text, std::int64_t lo, std::int64_t hi) {
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value < lo || value > hi)
+    throw UsageError(option + ": \"" + text + "\" is not a whole number from " + std::to_string(lo) + " to " +
+                     std::to_string(hi));
+  return value;
+}
+
+void parse_resolution(const std::string& text, brume::SceneOptions& changes) {
+  const std::size_t x = text.find_first_of("xX");
+  if (x == std::string::npos) throw UsageError("--resolution: \"" + text + "\" is not WIDTHxHEIGHT, as in 1280x720");
+  changes.width = static_cast<int>(parse_number("--resolution: width", text.substr(0, x), 1, 65536));
+  changes.height = static_cast<int>(parse_number("--resolution: height", text.substr(x + 1), 1, 65536));
+}
+
+Arguments parse_arguments(const std::vector<std::string>& given) {
+  Arguments a;
+  std::string samples, seed, threads, resolution;
+  CLI::App app;
+  app.set_help_flag();  // help and version are ours
+  app.add_option("SCENE", a.file);
+  app.add_option("-o,--output", a.outputs)->allow_extra_args(false);
+  app.add_option("--spp", samples);
+  app.add_option("--seed", seed);
+  app.add_option("--nthreads", threads);
+  app.add_option("--resolution", resolution);
+  app.add_option("--integrator", a.changes.integrator);
+  app.add_option("--grid", a.grid);
+  app.add_option("--write-scene", a.write_scene);
+  app.add_flag("--example", a.example);
+  app.add_flag("--quiet", a.quiet);
+  app.add_flag("--version", a.version);
+  app.add_flag("-h,--help", a.help);
+  parse(app, given);
+  if (a.help || a.version) return a;
+
+  if (!samples.empty()) a.changes.samples_per_pixel = static_cast<int>(parse_number("--spp", samples, 1, 1 << 24));
+  if (!seed.empty()) a.changes.seed = static_cast<std::uint32_t>(parse_number("--seed", seed, 0, 0xffffffff));
+  if (!threads.empty()) a.threads = static_cast<int>(parse_number("--nthreads", threads, 0, 4096));
+  if (!resolution.empty()) parse_resolution(resolution, a.changes);
+  if (a.file.empty() && !a.example)
+    throw UsageError("a scene or a volume to render is missing; brume --help shows how");
+  if (!a.file.empty() && a.example) throw UsageError("--example takes no scene or volume");
+  if (!a.grid.empty() && a.example) throw UsageError("--grid is for a volume file");
+  return a;
+}
+
+void say(const Arguments& a, const std::string& line) {
+  if (!a.quiet) std::fprintf(stderr, "%s\n", line.c_str());
+}
+
+brume::Scene load(const Arguments& a) {
+  if (a.example) return brume::Scene::example();
+  if (!a.grid.empty()) return brume::Scene::frame_volume(a.file, a.grid);
+  std::vector<std::string> warnings;
+  brume::Scene scene = brume::Scene::load(a.file, warnings);
+  for (const std::string& warning : warnings) say(a, warning);
+  return scene;
+}
+
+void check_outputs(const std::vector<std::string>& outputs) {
+  for (const std::string& output : outputs) brume::Picture::check_output(output);
+}
+
+// The picture, or nothing where the render was stopped before it began.
+std::optional<brume::Picture> render(const Arguments& a, const brume::Scene& scene) {
+  double reached = 0;
+  ProgressLine line(a.quiet);
+  brume::RenderOptions options;
+  options.threads = a.threads;
+  options.on_warning = [&](const std::string& warning) {
+    line.clear();
+    say(a, warning);
+  };
+  options.on_progress = [&](const brume::Progress& progress) {
+    reached = progress.fraction;
+    line.show(progress);
+    return !interrupted();
+  };
+  brume::Picture picture = brume::render(scene, options);
+  if (picture.partial && reached == 0) return std::nullopt;
+  return picture;
+}
+
+int save(const Arguments& a, const brume::Picture& picture, const std::vector<std::string>& outputs) {
+  for (const std::string& output : outputs) {
+    picture.write(output);
+    say(a, output + ": " + std::to_string(picture.width) + " x " + std::to_string(picture.height) + " pixels, " +
+               std::to_string(picture.samples_per_pixel) + " samples per pixel" +
+               (picture.partial ? " at least; partial" : "") + ", " + clock_text(picture.seconds));
+  }
+  return picture.partial ? exit_interrupted : 0;
+}
+
+}  // namespace
+
+int render_command(const std::vector<std::string>& arguments) {
+  const Arguments a = parse_arguments(arguments);
+  if (a.help) return std::puts(help_text), 0;
+  if (a.version) return std::puts(brume::version_text().c_str()), 0;
+
+  watch_for_interrupt();
+  check_outputs(a.outputs);
+  brume::Scene scene = load(a);
+  scene.apply(a.changes);
+  if (!scene.framing_note().empty()) say(a, scene.framing_note());
+  if (!a.write_scene.empty()) {
+    scene.write(a.write_scene);
+    say(a, a.write_scene + ": scene written");
+    if (a.outputs.empty()) return 0;
+  }
+  const std::vector<std::string> outputs = a.outputs.empty() ? std::vector{scene.output_filename()} : a.outputs;
+  check_outputs(outputs);
+  const std::optional<brume::Picture> picture = render(a, scene);
+  if (interrupted()) say(a, picture ? "interrupted: saving what is rendered" : "interrupted: nothing was rendered yet");
+  return picture ? save(a, *picture, outputs) : exit_interrupted;
+}

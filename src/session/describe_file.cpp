@@ -1,0 +1,114 @@
+#include <fmt/format.h>
+
+#include <array>
+
+#include "base/file.h"
+#include "image/image.h"
+#include "kernel/phase_table.h"
+#include "scene/read_scene.h"
+#include "session/errors.h"
+#include "volume/read_volume.h"
+
+namespace brume {
+
+namespace {
+
+std::string text(const Vector3& v) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z); }
+std::string text(const Spectrum& s) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", s[0], s[1], s[2]); }
+
+std::string describe_volume(const std::string& path) {
+  const std::vector<GridInfo> grids = list_grids(path);
+  std::string lines = fmt::format("{}: {} grid{}\n", path, grids.size(), grids.size() == 1 ? "" : "s");
+  for (const GridInfo& grid : grids) {
+    lines += fmt::format("  {}: {}, {}{}\n", grid.name.empty() ? "(no name)" : grid.name, grid.type, grid.grid_class,
+                         grid.renderable ? "" : "; cannot be rendered");
+    lines += fmt::format("    {} x {} x {} voxels, {} active, each {:.6g} x {:.6g} x {:.6g}\n", grid.voxels[0],
+                         grid.voxels[1], grid.voxels[2], grid.active_voxels, grid.voxel_size.x, grid.voxel_size.y,
+                         grid.voxel_size.z);
+    lines += fmt::format("    bounds {} to {}\n", text(grid.bounds.lo), text(grid.bounds.hi));
+  }
+  return lines;
+}
+
+struct DescribeMediumKind {
+  std::string operator()(const HomogeneousMedium&) const { return "homogeneous"; }
+  std::string operator()(const UniformGridMedium& m) const {
+    return fmt::format("uniform grid of {} x {} x {} voxels", m.resolution[0], m.resolution[1], m.resolution[2]);
+  }
+  std::string operator()(const FileMedium& m) const {
+    return fmt::format("grid {} of {}", m.grid.empty() ? "by default" : m.grid, m.filename);
+  }
+  std::string operator()(const CloudMedium& m) const { return fmt::format("procedural cloud of {} voxels", m.size); }
+};
+
+struct DescribeLight {
+  std::string operator()(const PointLight& l) const {
+    return fmt::format("point at {}, intensity {}", text(l.from), text(l.intensity));
+  }
+  std::string operator()(const DistantLight& l) const {
+    return fmt::format("distant, towards {}, radiance {}", text(l.direction_to_light), text(l.radiance));
+  }
+  std::string operator()(const InfiniteLight& l) const {
+    return fmt::format("infinite, radiance {}", text(l.radiance));
+  }
+};
+
+std::string describe_shapes(const std::vector<ShapeDescription>& shapes) {
+  constexpr std::array names{"sphere", "triangle mesh", "quad", "volume"};
+  static_assert(names.size() == std::variant_size_v<decltype(ShapeDescription::kind)>);
+  std::array<int, names.size()> counts{};
+  for (const ShapeDescription& shape : shapes) ++counts[shape.kind.index()];
+  std::string line;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (counts[i] > 0) line += fmt::format("{}{} {}", line.empty() ? "" : ", ", counts[i], names[i]);
+  return line.empty() ? "none" : line;
+}
+
+std::string describe_scene(const std::string& path) {
+  std::vector<Diagnostic> warnings;
+  const SceneDescription scene = read_scene(path, warnings);
+  std::string lines = fmt::format("{}: scene\n", path);
+  lines += fmt::format("  film: {} x {} pixels, {} samples per pixel, to {}\n", scene.film.width, scene.film.height,
+                       scene.sampler.pixel_samples, scene.film.filename);
+  lines += fmt::format("  camera: at {}, field of view {:.4g} degrees\n",
+                       text(scene.camera.world_from_camera.point({})), scene.camera.fov);
+  lines += fmt::format("  integrator: {}, maxdepth {}\n", scene.integrator.name, scene.integrator.max_depth);
+  for (const MediumDescription& medium : scene.media)
+    lines += fmt::format("  medium {}: {}, sigma_s {}, sigma_a {}, {}\n", medium.name,
+                         std::visit(DescribeMediumKind{}, medium.kind), text(medium.sigma_s), text(medium.sigma_a),
+                         phase_functions()[static_cast<std::size_t>(medium.phase)].table.name);
+  lines += fmt::format("  shapes: {}\n", describe_shapes(scene.shapes));
+  for (const LightDescription& light : scene.lights)
+    lines += fmt::format("  light: {}\n", std::visit(DescribeLight{}, light.kind));
+  for (const Diagnostic& warning : warnings) lines += to_string(warning) + '\n';
+  return lines;
+}
+
+std::string describe_picture(const std::string& path) {
+  const Image image = read_image(path);
+  std::string lines = fmt::format("{}: picture of {} x {} pixels\n", path, image.width, image.height);
+  if (suffix(path) != ".exr") return lines;
+  const ImageMetadata m = read_image_metadata(path);
+  lines += fmt::format("  {} floats\n", m.half ? "16-bit" : "32-bit");
+  if (!m.software.empty()) lines += fmt::format("  software: {}\n", m.software);
+  if (m.samples_per_pixel > 0)
+    lines += fmt::format("  {} samples per pixel in {:.1f} s, seed {}\n", m.samples_per_pixel, m.render_time_seconds,
+                         m.seed);
+  if (m.partial) lines += "  partial: the render was stopped before its end\n";
+  return lines;
+}
+
+}  // namespace
+
+std::string describe_file(const std::string& path) {
+  return with_public_errors([&] {
+    const std::string s = suffix(path);
+    if (s == ".vdb" || s == ".nvdb") return describe_volume(path);
+    if (s == ".pbrt") return describe_scene(path);
+    if (s == ".exr" || s == ".pfm") return describe_picture(path);
+    throw InputError(path, fmt::format("{}; known are scenes (.pbrt), volumes (.vdb, .nvdb) and pictures (.exr, .pfm)",
+                                       s.empty() ? "no suffix" : fmt::format("unknown suffix \"{}\"", s)));
+  });
+}
+
+}  // namespace brume

@@ -1,0 +1,27 @@
+// From the layers' exceptions to the public one.
+#pragma once
+
+#include <new>
+#include <stdexcept>
+#include <utility>
+
+#include "base/diagnostics.h"
+#include "brume/scene.h"
+
+namespace brume {
+
+// Calls `body`; what it throws because of its input or for lack of memory goes on as Error.
+template <class Body>
+auto with_public_errors(Body&& body) {
+  try {
+    return std::forward<Body>(body)();
+  } catch (const InputError& e) {
+    throw Error(e.what());
+  } catch (const std::bad_alloc&) {
+    throw Error("not enough memory");
+  } catch (const std::length_error&) {  // a container that would pass what memory can ever hold
+    throw Error("not enough memory");
+  }
+}
+
+}  // namespace brume

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "brume/render.h"
+#include "image/image.h"
+
+namespace brume {
+
+struct Picture::Metadata {
+  ImageMetadata image;
+};
+
+}  // namespace brume

@@ -1,0 +1,114 @@
+#include "brume/scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include "base/file.h"
+#include "scene/read_scene.h"
+#include "session/contents.h"
+#include "session/errors.h"
+#include "session/example_scene.h"
+
+namespace brume {
+
+namespace {
+
+// "classic" and those of pbrt-v4, which fall back to it.
+constexpr std::array<std::string_view, 12> integrator_names{
+    "classic", "volpath", "simplevolpath", "path",      "simplepath",       "randomwalk",
+    "bdpt",    "mlt",     "sppm",          "lightpath", "ambientocclusion", "function"};
+
+constexpr int max_edge = 65536, max_samples = 1 << 24;
+constexpr std::int64_t max_pixels = std::int64_t{1} << 28;
+
+void check_resolution(int width, int height) {
+  if (width < 1 || height < 1 || width > max_edge || height > max_edge || std::int64_t{width} * height > max_pixels)
+    throw Error(fmt::format("resolution {}x{} is out of range: each side from 1 to {} pixels, together at most {}",
+                            width, height, max_edge, max_pixels));
+}
+
+void check_integrator(const std::string& name) {
+  if (std::find(integrator_names.begin(), integrator_names.end(), name) != integrator_names.end()) return;
+  const std::string_view nearest = nearest_name(name, integrator_names);
+  throw Error(fmt::format("unknown integrator \"{}\"{}; valid are {}", name,
+                          nearest.empty() ? "" : fmt::format(", did you mean \"{}\"?", nearest),
+                          fmt::join(integrator_names, ", ")));
+}
+
+// A scene as text or in another folder must find its volumes from anywhere.
+SceneDescription with_absolute_names(SceneDescription scene) {
+  for (MediumDescription& medium : scene.media)
+    if (auto* file = std::get_if<FileMedium>(&medium.kind))
+      file->filename = std::filesystem::absolute(file->filename).lexically_normal().string();
+  return scene;
+}
+
+SceneDescription read_description(const std::string& path, std::vector<std::string>& warnings) {
+  std::vector<Diagnostic> found;
+  SceneDescription scene = read_scene(path, found);
+  for (const Diagnostic& warning : found) warnings.push_back(to_string(warning));
+  return scene;
+}
+
+}  // namespace
+
+Scene::Scene(std::unique_ptr<Contents> contents) : contents_(std::move(contents)) {}
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+Scene::~Scene() = default;
+
+Scene Scene::load(const std::string& path, std::vector<std::string>& warnings) {
+  return with_public_errors([&] {
+    const std::string s = suffix(path);
+    if (s == ".vdb" || s == ".nvdb") return frame_volume(path);
+    if (s != ".pbrt")
+      throw InputError(path, fmt::format("{}; scenes are .pbrt files, volumes .vdb or .nvdb",
+                                         s.empty() ? "no suffix" : fmt::format("unknown suffix \"{}\"", s)));
+    return Scene(std::make_unique<Contents>(Contents{read_description(path, warnings), {}, {}}));
+  });
+}
+
+Scene Scene::frame_volume(const std::string& path, const std::string& grid) {
+  return with_public_errors([&] {
+    if (const std::string s = suffix(path); s != ".vdb" && s != ".nvdb")
+      throw InputError(path, "not a volume file, whose suffix would be .vdb or .nvdb");
+    FramedVolume framed = brume::frame_volume(path, grid);
+    return Scene(std::make_unique<Contents>(Contents{std::move(framed.scene), framed.framing, std::move(framed.note)}));
+  });
+}
+
+Scene Scene::example() { return Scene(std::make_unique<Contents>(Contents{example_scene(), {}, {}})); }
+
+void Scene::apply(const SceneOptions& options) {
+  SceneDescription& scene = contents_->description;
+  const int width = options.width.value_or(scene.film.width), height = options.height.value_or(scene.film.height);
+  if (options.width || options.height) check_resolution(width, height);
+  const int samples = options.samples_per_pixel.value_or(scene.sampler.pixel_samples);
+  if (options.samples_per_pixel && (samples < 1 || samples > max_samples))
+    throw Error(fmt::format("{} samples per pixel are out of range: from 1 to {}", samples, max_samples));
+  if (options.integrator) check_integrator(*options.integrator);
+
+  scene.film.width = width;
+  scene.film.height = height;
+  scene.sampler.pixel_samples = samples;
+  if (options.seed) scene.sampler.seed = *options.seed;
+  if (options.integrator) scene.integrator.name = *options.integrator;
+  if (contents_->framing) scene.camera.fov = fov_for(*contents_->framing, width, height);
+}
+
+std::string Scene::text() const {
+  return with_public_errors([&] { return write_scene(with_absolute_names(contents_->description)); });
+}
+
+void Scene::write(const std::string& path) const {
+  with_public_errors([&] { write_file_atomically(path, write_scene(with_absolute_names(contents_->description))); });
+}
+
+std::string Scene::output_filename() const { return contents_->description.film.filename; }
+
+std::string Scene::framing_note() const { return contents_->framing_note; }
+
+}  // namespace brume

@@ -1,0 +1,112 @@
+// Help, version and what happens with arguments that make no sense.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "cli/run_program.h"
+#include "image/temporary_folder.h"
+
+namespace brume {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+TEST(Arguments, HelpFitsOnAScreen) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run(folder.path(), {"--help"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.error, IsEmpty());
+  EXPECT_LE(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 30);
+  for (const char* word : {"--output", "--spp", "--seed", "--nthreads", "--resolution", "--integrator", "--grid",
+                           "--write-scene", "--quiet", "--version", "--example", "brume info", "BRUME_ISA", ".pfm"})
+    EXPECT_THAT(outcome.out, HasSubstr(word));
+  EXPECT_EQ(run(folder.path(), {"render", "--help"}).out, outcome.out);
+  EXPECT_THAT(run(folder.path(), {"info", "--help"}).out, StartsWith("Usage: brume info FILE"));
+}
+
+TEST(Arguments, VersionNamesTheInstructionSets) {
+  const TemporaryFolder folder;
+  const Outcome best = run(folder.path(), {"--version"});
+  EXPECT_EQ(best.exit_code, 0);
+  EXPECT_THAT(best.out, StartsWith("Brume " BRUME_VERSION "\n"));
+  EXPECT_THAT(best.out, HasSubstr("one lane"));
+  const Outcome scalar = run(folder.path(), {"--version"}, {{"BRUME_ISA", "scalar"}});
+  EXPECT_THAT(scalar.out, HasSubstr("In use: one lane"));
+  const Outcome unknown = run(folder.path(), {"--version"}, {{"BRUME_ISA", "avx513"}});
+  EXPECT_EQ(unknown.exit_code, 1);
+  EXPECT_THAT(unknown.error, HasSubstr("avx513"));
+  EXPECT_THAT(unknown.error, HasSubstr("scalar"));
+}
+
+struct BadArguments {
+  std::vector<std::string> arguments;
+  std::string message;
+};
+
+TEST(Arguments, MistakesAreNamedAndNothingIsWritten) {
+  const TemporaryFolder folder;
+  write_small_scene(folder.file("a.pbrt"));
+  const std::vector<BadArguments> cases = {
+      {{}, "a scene or a volume to render is missing"},
+      {{"a.pbrt", "b.pbrt"}, "unexpected argument \"b.pbrt\""},
+      {{"a.pbrt", "--sppp", "3"}, "unknown option --sppp, did you mean --spp?"},
+      {{"a.pbrt", "--threads", "3"}, "did you mean --nthreads?"},
+      {{"a.pbrt", "--spp"}, "--spp"},
+      {{"a.pbrt", "--spp", "0"}, "--spp: \"0\" is not a whole number from 1"},
+      {{"a.pbrt", "--spp", "-5"}, "--spp: \"-5\""},
+      {{"a.pbrt", "--spp", "4.5"}, "--spp: \"4.5\""},
+      {{"a.pbrt", "--spp", "99999999999999999999"}, "--spp"},
+      {{"a.pbrt", "--seed", "-1"}, "--seed: \"-1\" is not a whole number from 0 to 4294967295"},
+      {{"a.pbrt", "--nthreads", "many"}, "--nthreads: \"many\""},
+      {{"a.pbrt", "--resolution", "0x0"}, "--resolution: width: \"0\""},
+      {{"a.pbrt", "--resolution", "16x-1"}, "--resolution: height: \"-1\""},
+      {{"a.pbrt", "--resolution", "640"}, "is not WIDTHxHEIGHT"},
+      {{"a.pbrt", "--resolution", "65536x65536"}, "65536x65536 is out of range"},
+      {{"a.pbrt", "--integrator", "clasic"}, "did you mean \"classic\"?"},
+      {{"a.pbrt", "--grid", "density"}, "a.pbrt: error: not a volume file"},
+      {{"a.pbrt", "--example"}, "--example takes no scene"},
+      {{"--example", "--grid", "g"}, "--grid is for a volume"},
+      {{"a.pbrt", "-o", "x.jpg"}, ".exr, .png and .pfm"},
+      {{"a.pbrt", "-o", "x"}, "no suffix"},
+      {{"a.pbrt", "-o", "missing/x.png"}, "missing/x.png: error: cannot be written: there is no folder missing"},
+      {{"missing.pbrt"}, "missing.pbrt: error: cannot be read: No such file"},
+      {{"missing.vdb"}, "missing.vdb: error:"},
+      {{"a.obj"}, "scenes are .pbrt files, volumes .vdb or .nvdb"},
+      {{"info", "a.obj"}, ".nvdb"},
+      {{"info"}, "needs the name of a file"},
+  };
+  for (const BadArguments& c : cases) {
+    const Outcome outcome = run(folder.path(), c.arguments);
+    const std::string shown = testing::PrintToString(c.arguments);
+    EXPECT_EQ(outcome.exit_code, 1) << shown;
+    EXPECT_THAT(outcome.error, HasSubstr(c.message)) << shown;
+    EXPECT_THAT(outcome.out, IsEmpty()) << shown;
+  }
+  EXPECT_THAT(folder.names(), ElementsAre("a.pbrt"));
+}
+
+TEST(Arguments, SceneErrorsHaveTheirPlace) {
+  const TemporaryFolder folder;
+  write_bytes_to(folder.file("a.pbrt"), "WorldBegin\nShape \"sphere\" \"float radus\" 2\n");
+  const Outcome outcome = run(folder.path(), {"a.pbrt", "--quiet"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.error, HasSubstr("a.pbrt:2:"));
+  EXPECT_THAT(folder.names(), ElementsAre("a.pbrt"));
+}
+
+TEST(Arguments, InfoDescribesAScene) {
+  const TemporaryFolder folder;
+  write_small_scene(folder.file("a.pbrt"));
+  const Outcome outcome = run(folder.path(), {"info", "a.pbrt"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+  for (const char* part :
+       {"16 x 12 pixels", "2 samples", "classic", "2 x 2 x 2 voxels", "1 volume", "distant", "infinite"})
+    EXPECT_THAT(outcome.out, HasSubstr(part));
+}
+
+}  // namespace
+}  // namespace brume

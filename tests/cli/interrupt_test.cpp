@@ -1,0 +1,55 @@
+// Ctrl-C and SIGTERM: what is rendered so far is saved and marked, and the exit code says so.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "cli/run_program.h"
+#include "image/image.h"
+#include "image/temporary_folder.h"
+
+namespace brume {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+// More samples than any machine takes in a test's time.
+std::vector<std::string> endless(const std::string& output) {
+  return {"a.pbrt", "--spp", "16000000", "--integrator", "path", "-o", output};
+}
+
+// The warning about the integrator comes when rendering is about to begin.
+void wait_for_start(const RunningProgram& program) {
+  for (int i = 0; i < 600 && program.error().empty(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  ASSERT_THAT(program.error(), HasSubstr("warning"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+}
+
+void expect_partial_picture(int signal) {
+  const TemporaryFolder folder;
+  write_small_scene(folder.file("a.pbrt"));
+  RunningProgram program(folder.path(), endless("b.exr"));
+  ASSERT_NO_FATAL_FAILURE(wait_for_start(program));
+  program.send(signal);
+  const Outcome outcome = program.wait();
+  EXPECT_EQ(outcome.exit_code, 130);
+  EXPECT_THAT(outcome.error, HasSubstr("interrupted"));
+  EXPECT_THAT(outcome.error, HasSubstr("partial"));
+  EXPECT_THAT(folder.names(), ElementsAre("a.pbrt", "b.exr"));
+  const ImageMetadata metadata = read_image_metadata(folder.file("b.exr"));
+  EXPECT_TRUE(metadata.partial);
+  EXPECT_GT(metadata.samples_per_pixel, 0);
+  EXPECT_LT(metadata.samples_per_pixel, 16000000);
+  const Image image = read_image(folder.file("b.exr"));
+  EXPECT_GT(image.pixels.front(), 0);
+  EXPECT_GT(image.pixels.back(), 0);
+}
+
+TEST(Interrupt, SigintSavesWhatThereIs) { expect_partial_picture(SIGINT); }
+TEST(Interrupt, SigtermSavesWhatThereIs) { expect_partial_picture(SIGTERM); }
+
+}  // namespace
+}  // namespace brume

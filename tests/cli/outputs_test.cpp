@@ -1,0 +1,112 @@
+// What the program writes: the files asked for, the same bits whenever the same is asked, nothing else.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/run_program.h"
+#include "image/image.h"
+#include "image/temporary_folder.h"
+
+namespace brume {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class Outputs : public testing::Test {
+ protected:
+  Outputs() { write_small_scene(folder_.file("a.pbrt")); }
+
+  void expect_success(const std::vector<std::string>& arguments,
+                      const std::map<std::string, std::string>& environment = {}) {
+    const Outcome outcome = run(folder_.path(), arguments, environment);
+    EXPECT_EQ(outcome.exit_code, 0) << testing::PrintToString(arguments) << outcome.error;
+    EXPECT_THAT(outcome.out, IsEmpty());
+    error_ = outcome.error;
+  }
+  std::string bytes(const std::string& name) const { return bytes_of(folder_.file(name)); }
+
+  TemporaryFolder folder_;
+  std::string error_;  // of the last run
+};
+
+TEST_F(Outputs, GoesToTheFileThatTheSceneNames) {
+  expect_success({"a.pbrt"});
+  EXPECT_THAT(folder_.names(), ElementsAre("a.pbrt", "named by scene.pfm"));
+  EXPECT_THAT(error_, HasSubstr("named by scene.pfm: 16 x 12 pixels, 2 samples per pixel"));
+}
+
+TEST_F(Outputs, ManyAtOnce) {
+  expect_success(
+      {"render", "a.pbrt", "-o", "ü b.exr", "--output", "b.png", "-o", "b.pfm", "--resolution", "8x4", "--seed", "7"});
+  EXPECT_THAT(folder_.names(), ElementsAre("a.pbrt", "b.pfm", "b.png", "ü b.exr"));
+  EXPECT_EQ(read_image(folder_.file("b.pfm")).width, 8);
+  EXPECT_EQ(read_image(folder_.file("b.pfm")).height, 4);
+  const ImageMetadata metadata = read_image_metadata(folder_.file("ü b.exr"));
+  EXPECT_EQ(metadata.samples_per_pixel, 2);
+  EXPECT_EQ(metadata.seed, 7u);
+  EXPECT_FALSE(metadata.partial);
+  EXPECT_THAT(metadata.software, HasSubstr("Brume"));
+  // The camera looks from (0, 0, 5) at the origin: 5 in front of it, in the middle of the picture.
+  EXPECT_NEAR(metadata.camera_from_world.point({0, 0, 0}).z, 5, 1e-5);
+  const auto& m = metadata.ndc_from_world;
+  EXPECT_NEAR(m[0][3] / m[3][3], 0.5, 1e-5);
+  EXPECT_NEAR(m[1][3] / m[3][3], 0.5, 1e-5);
+  // fov 30 degrees across the height of 4 pixels: a point at y = 5 tan 15 degrees is at the upper edge, v = 0.
+  const double y = 5 * 0.2679491924311227;
+  EXPECT_NEAR((m[1][1] * y + m[1][3]) / (m[3][1] * y + m[3][3]), 0, 1e-5);
+}
+
+TEST_F(Outputs, QuietSaysNothing) {
+  expect_success({"a.pbrt", "--quiet", "-o", "b.pfm"});
+  EXPECT_THAT(error_, IsEmpty());
+}
+
+TEST_F(Outputs, TheSameBitsForAnyNumberOfThreads) {
+  expect_success({"a.pbrt", "--nthreads", "1", "-o", "one.pfm", "--resolution", "64x48"});
+  expect_success({"a.pbrt", "--nthreads", "2", "-o", "two.pfm", "--resolution", "64x48"});
+  expect_success({"a.pbrt", "--nthreads", "2", "-o", "other seed.pfm", "--resolution", "64x48", "--seed", "1"});
+  EXPECT_EQ(bytes("one.pfm"), bytes("two.pfm"));
+  EXPECT_NE(bytes("one.pfm"), bytes("other seed.pfm"));
+}
+
+TEST_F(Outputs, OtherInstructionSetsRender) {
+  expect_success({"a.pbrt", "-o", "best.pfm"});
+  expect_success({"a.pbrt", "-o", "scalar.pfm"}, {{"BRUME_ISA", "scalar"}});
+  const Image best = read_image(folder_.file("best.pfm")), scalar = read_image(folder_.file("scalar.pfm"));
+  for (std::size_t i = 0; i < best.pixels.size(); ++i) EXPECT_NEAR(best.pixels[i], scalar.pixels[i], 1e-4f);
+}
+
+TEST_F(Outputs, AWrittenSceneGivesTheSameBits) {
+  expect_success({"a.pbrt", "--seed", "3", "--spp", "3", "--write-scene", "b.pbrt"});
+  EXPECT_THAT(error_, HasSubstr("b.pbrt: scene written"));
+  EXPECT_THAT(folder_.names(), ElementsAre("a.pbrt", "b.pbrt"));  // nothing was rendered
+  expect_success({"a.pbrt", "--seed", "3", "--spp", "3", "-o", "a.pfm"});
+  expect_success({"b.pbrt", "-o", "b.pfm"});
+  EXPECT_EQ(bytes("a.pfm"), bytes("b.pfm"));
+}
+
+TEST_F(Outputs, TheWrittenExampleGivesTheSameBits) {
+  expect_success({"--example", "--resolution", "24x16", "--spp", "1", "-o", "a.pfm", "--write-scene", "example.pbrt"});
+  expect_success({"example.pbrt", "-o", "b.pfm"});
+  EXPECT_EQ(bytes("a.pfm"), bytes("b.pfm"));
+}
+
+TEST_F(Outputs, FallsBackToClassicWithOneWarning) {
+  expect_success({"a.pbrt", "--integrator", "volpath", "-o", "b.pfm"});
+  EXPECT_THAT(error_, HasSubstr("integrator \"volpath\" is not built yet"));
+  EXPECT_EQ(error_.find("volpath"), error_.rfind("volpath"));
+  expect_success({"a.pbrt", "-o", "a.pfm"});
+  EXPECT_EQ(bytes("a.pfm"), bytes("b.pfm"));
+}
+
+TEST_F(Outputs, BadOutputsAreRefusedBeforeRendering) {
+  std::filesystem::create_directory(folder_.file("folder.pfm"));
+  const Outcome outcome = run(folder_.path(), {"a.pbrt", "-o", "b.pfm", "-o", "folder.pfm"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.error, HasSubstr("folder.pfm: error: cannot be written: it is a folder"));
+  EXPECT_THAT(folder_.names(), ElementsAre("a.pbrt", "folder.pfm"));
+}
+
+}  // namespace
+}  // namespace brume
