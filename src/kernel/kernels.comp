@@ -15,7 +15,7 @@ uint load_u32(uint array, int index) { return words[array + uint(index)]; }
 #include "kernel/all.inl"
 #include "kernel/phase_dispatch.glsl"
 
-const uint result_count = 18;
+const uint result_count = 20;
 
 void main() {
   uint id = gl_GlobalInvocationID.x;
@@ -57,4 +57,9 @@ void main() {
   results[out_index + 13] = phase_eval(arguments.phase_kind, 2.0 * u[6] - 1.0, p);
   results[out_index + 14] = phase_sample(arguments.phase_kind, u[7], p);
   results[out_index + 17] = phase_mean_cosine(arguments.phase_kind, p);
+
+  uint first, second;
+  sobol_pair(words[0], id & 63u, id >> 6, 16u, words[1], 0u, first, second);
+  results[out_index + 18] = uniform_from_bits(first);
+  results[out_index + 19] = uniform_from_bits(second);
 }

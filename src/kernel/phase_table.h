@@ -8,10 +8,12 @@
 
 namespace brume {
 
-// A parameter that a scene may give: lo < value < hi (both excluded).
+// A parameter that a scene may give, from lo to hi; the ends themselves are allowed only where ends_included.
 struct PhaseParameter {
   std::string_view name, meaning, unit;
-  float lo = 0, hi = 0, fallback = 0;
+  double lo = 0, hi = 0;
+  float fallback = 0;
+  bool ends_included = false;
 };
 
 constexpr int max_phase_parameters = 4;
@@ -19,7 +21,7 @@ using PhasePrepared = std::array<float, 4>;
 
 struct PhaseFunction {
   std::string_view name, meaning;
-  std::array<PhaseParameter, max_phase_parameters> parameters;  // the first with an empty name ends the list
+  PhaseParameter parameters[max_phase_parameters] = {};  // the first with an empty name ends the list
 };
 
 struct PhaseEntry {

@@ -66,7 +66,8 @@ void read_phase(ParameterList& p, MediumDescription& medium) {
   for (const PhaseParameter& parameter : phase_functions()[static_cast<std::size_t>(medium.phase)].table.parameters) {
     if (parameter.name.empty()) break;
     const double fallback = static_cast<double>(parameter.fallback);
-    const Range range = Range::between(static_cast<double>(parameter.lo), static_cast<double>(parameter.hi));
+    const Range range = parameter.ends_included ? Range::from_to(parameter.lo, parameter.hi)
+                                                : Range::between(parameter.lo, parameter.hi);
     const double value = p.number(parameter.name, fallback, range);
     const double rounded = static_cast<double>(static_cast<float>(value));
     if (!range.holds(rounded))

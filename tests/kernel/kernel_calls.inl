@@ -21,6 +21,13 @@ inline void call_random_bits(const F* in, F* out, const TestGrid&) {
   out[0] = bits_float(bits);
   out[1] = uniform_from_bits(bits);
 }
+inline void call_sobol_pair(const F* in, F* out, const TestGrid&) {
+  U first, second;
+  sobol_pair(float_bits(in[0]), float_bits(in[1]), float_bits(in[2]), float_bits(in[3]), float_bits(in[4]),
+             float_bits(in[5]), first, second);
+  out[0] = bits_float(first);
+  out[1] = bits_float(second);
+}
 inline void call_box_clip(const F* in, F* out, const TestGrid&) {
   out[0] = in[12];
   out[1] = in[13];
@@ -84,7 +91,7 @@ constexpr KernelCall kernel_calls[] = {
     CALL(log_natural, 1, 1),  CALL(exp_natural, 1, 1),        CALL(sincos_turns, 1, 2),   CALL(pow_positive, 2, 1),
     CALL(beer_lambert, 1, 1), CALL(mean_transmittance, 1, 1), CALL(march_position, 6, 1), CALL(random_bits, 4, 2),
     CALL(box_clip, 14, 3),    CALL(box_span, 12, 5),          CALL(dda, 6, 48),           CALL(grid_nearest, 3, 1),
-    CALL(grid_linear, 3, 1),  CALL(cell_mean_linear, 7, 1),
+    CALL(grid_linear, 3, 1),  CALL(cell_mean_linear, 7, 1),   CALL(sobol_pair, 6, 2),
 #include "kernel/phase_list.inl"
 };
 #undef PHASE

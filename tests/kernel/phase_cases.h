@@ -6,6 +6,7 @@
 #include <ostream>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kernel/phase_table.h"
@@ -28,51 +29,82 @@ constexpr auto phase_case_name = [](const auto& parameter) { return parameter.pa
 // Where in a parameter's range the cases lie; for -1 to 1: -0.99, -0.75, ..., 0.99.
 constexpr std::array<double, 9> phase_spread{0.005, 0.125, 0.4, 0.5, 0.5005, 0.65, 0.755, 0.875, 0.995};
 
-inline std::vector<PhaseCase> phase_cases() {
-  std::vector<PhaseCase> cases;
+using PhaseValues = std::array<float, max_phase_parameters>;
+
+// Values besides the spread: ends of ranges, and what even steps do not reach.
+struct ChosenPhase {
+  std::string_view name;
+  PhaseValues values;
+};
+constexpr std::array chosen_phases{
+    ChosenPhase{"draine", {1e-4f, 250}},
+    ChosenPhase{"draine", {-0.95f, 250}},
+    ChosenPhase{"draine", {0.95f, 20}},
+    ChosenPhase{"mie", {0.1f}},
+    ChosenPhase{"mie", {1.5f}},
+    ChosenPhase{"two_lobe", {0.9f, -0.5f, 1}},
+    ChosenPhase{"two_lobe", {0.9f, -0.5f, 0}},
+};
+
+// The phase function `name` at values for its parameters.
+inline PhaseCase phase_case(std::string_view name, const PhaseValues& values) {
 #define PHASE(name) {#name, {}, kernel::name##_eval, kernel::name##_sample, kernel::name##_mean_cosine},
-  const std::vector<PhaseCase> kinds = {
+  static const std::vector<PhaseCase> kinds = {
 #include "kernel/phase_list.inl"
   };
 #undef PHASE
-  for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
-    const PhaseEntry& entry = phase_functions()[kind];
+  const auto kind = static_cast<std::size_t>(phase_kind(name));
+  PhaseCase phase = kinds[kind];
+  const PhasePrepared p = phase_functions()[kind].prepare(values.data());
+  phase.p = {p[0], p[1], p[2], p[3]};
+  return phase;
+}
+
+// The i-th values of the spread, which each parameter takes in another order.
+inline PhaseValues spread_values(const PhaseFunction& table, std::size_t i) {
+  PhaseValues values{};
+  for (std::size_t j = 0; j < values.size(); ++j) {
+    const PhaseParameter& parameter = table.parameters[j];
+    const double at = phase_spread[(i * (2 * j + 1) + j) % phase_spread.size()];
+    values[j] = static_cast<float>(parameter.lo + at * (parameter.hi - parameter.lo));
+  }
+  return values;
+}
+
+inline std::vector<PhaseCase> phase_cases() {
+  std::vector<PhaseCase> cases;
+  for (const PhaseEntry& entry : phase_functions()) {
     const bool has_parameters = !entry.table.parameters[0].name.empty();
-    for (std::size_t i = 0; i < (has_parameters ? phase_spread.size() : 1); ++i) {
-      std::array<float, max_phase_parameters> values{};
-      for (std::size_t j = 0; j < values.size(); ++j) {  // a different order of the spread for each parameter
-        const PhaseParameter& parameter = entry.table.parameters[j];
-        const double at = phase_spread[(i * (2 * j + 1) + j) % phase_spread.size()];
-        values[j] = static_cast<float>(parameter.lo + at * (parameter.hi - parameter.lo));
-      }
-      const PhasePrepared p = entry.prepare(values.data());
-      PhaseCase phase = kinds[kind];
-      phase.name.append("_").append(std::to_string(i));
-      phase.p = {p[0], p[1], p[2], p[3]};
-      cases.push_back(phase);
+    std::vector<PhaseValues> all;
+    for (std::size_t i = 0; i < (has_parameters ? phase_spread.size() : 1); ++i)
+      all.push_back(spread_values(entry.table, i));
+    for (const ChosenPhase& chosen : chosen_phases)
+      if (chosen.name == entry.table.name) all.push_back(chosen.values);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      cases.push_back(phase_case(entry.table.name, all[i]));
+      cases.back().name.append("_").append(std::to_string(i));
     }
   }
   return cases;
 }
 
 // The case of Henyey-Greenstein at mean cosine g.
-inline PhaseCase henyey_greenstein_case(float g) {
-  return {"henyey_greenstein",
-          {g, 0, 0, 0},
-          kernel::henyey_greenstein_eval,
-          kernel::henyey_greenstein_sample,
-          kernel::henyey_greenstein_mean_cosine};
-}
+inline PhaseCase henyey_greenstein_case(float g) { return phase_case("henyey_greenstein", {g}); }
 
-// The density of mu in double, 2 pi eval(mu), linear between neighbouring floats: near the peak of a narrow lobe
-// rounding mu to a float would change the density by more than the tests allow.
+// The density of mu in double, 2 pi eval(mu), where its power -2/3 is linear between neighbouring floats, as that of
+// Henyey-Greenstein is everywhere: near the peak of a narrow lobe rounding mu to a float would change the density by
+// more than the tests allow, and so would a straight line across the peak's curve.
 inline double phase_density(const PhaseCase& phase, double mu) {
   const float below = std::nextafter(static_cast<float>(mu), -2.0f);
   const float a = std::fmax(below, -1.0f);
   const float b = std::fmin(std::nextafter(static_cast<float>(mu), 2.0f), 1.0f);
   const double fraction = (mu - a) / (static_cast<double>(b) - a);
-  const double density = (1 - fraction) * phase.eval(a, phase.p) + fraction * phase.eval(b, phase.p);
-  return 2 * 3.14159265358979324 * density;
+  const auto power = [&](float x) {
+    const double density = phase.eval(x, phase.p);
+    return 1 / std::cbrt(density * density);
+  };
+  const double power_here = (1 - fraction) * power(a) + fraction * power(b);
+  return 2 * 3.14159265358979324 / (power_here * std::sqrt(power_here));
 }
 
 // Points from -1 to 1 that crowd towards both ends, as lobes do: between them a density is nearly straight. Each lies
