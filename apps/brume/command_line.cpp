@@ -1,6 +1,7 @@
 #include "command_line.h"
 
 #include <algorithm>
+#include <charconv>
 #include <numeric>
 
 namespace {
@@ -53,4 +54,13 @@ void parse(CLI::App& app, std::vector<std::string> arguments) {
   }
   if (const std::vector<std::string> extras = app.remaining(); !extras.empty())
     throw UsageError(unexpected(app, extras.front()));
+}
+
+std::int64_t parse_number(const std::string& option, const std::string& text, std::int64_t lo, std::int64_t hi) {
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value < lo || value > hi)
+    throw UsageError(option + ": \"" + text + "\" is not a whole number from " + std::to_string(lo) + " to " +
+                     std::to_string(hi));
+  return value;
 }

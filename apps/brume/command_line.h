@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -14,3 +15,6 @@ class UsageError : public std::runtime_error {
 
 // Parses; throws UsageError, which for an unknown option names the nearest valid one.
 void parse(CLI::App& app, std::vector<std::string> arguments);
+
+// A whole number from lo to hi, given for `option`; throws UsageError.
+std::int64_t parse_number(const std::string& option, const std::string& text, std::int64_t lo, std::int64_t hi);

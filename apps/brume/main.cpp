@@ -1,9 +1,11 @@
 // The program brume: reads its arguments, calls libbrume, shows what comes back.
 #include <cstdio>
 #include <exception>
+#include <map>
 
 #include "brume/brume.h"
 #include "command_line.h"
+#include "compare_command.h"
 #include "info_command.h"
 #include "render_command.h"
 
@@ -11,9 +13,13 @@ namespace {
 
 int run(std::vector<std::string> arguments) {
   const std::string command = arguments.empty() ? "" : arguments.front();
-  if (command != "info" && command != "render") return render_command(arguments);
+  using Command = int (*)(const std::vector<std::string>&);
+  const std::map<std::string, Command> commands = {
+      {"compare", compare_command}, {"info", info_command}, {"render", render_command}};
+  const auto named = commands.find(command);
+  if (named == commands.end()) return render_command(arguments);
   arguments.erase(arguments.begin());
-  return command == "info" ? info_command(arguments) : render_command(arguments);
+  return named->second(arguments);
 }
 
 }  // namespace

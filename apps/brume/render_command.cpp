@@ -1,6 +1,7 @@
 #include "render_command.h"
 
-#include <charconv>
+#include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <cstdio>
 #include <optional>
@@ -18,6 +19,7 @@ const char* const help_text =
     R"(Usage: brume SCENE|VOLUME [options]     render a scene (.pbrt) or a volume (.vdb, .nvdb)
        brume --example [options]         render the built-in example, a cloud over a ground
        brume info FILE                   show what a scene, a volume or a picture holds
+       brume compare A B [REF]           how far two pictures are apart
 
   -o, --output FILE    where the picture goes: .png, .exr or .pfm; may be repeated.
                        Default: the file that the scene names; for a volume, VOLUME.png
@@ -28,6 +30,7 @@ const char* const help_text =
   --integrator NAME    instead of the scene's
   --grid NAME          of a volume file; default "density", or the only one there is
   --write-scene FILE   save the scene as .pbrt; without -o, instead of rendering
+  --variance           add the variance of each pixel to .exr files, for brume compare
   --quiet              errors only
   --version, --help    BRUME_ISA=avx512|avx2|sse4|scalar in the environment chooses
                        the instruction set that --version shows
@@ -43,19 +46,9 @@ struct Arguments {
   std::string file, grid, write_scene;
   std::vector<std::string> outputs;
   int threads = 0;
-  bool example = false, quiet = false, help = false, version = false;
+  bool example = false, variance = false, quiet = false, help = false, version = false;
   brume::SceneOptions changes;
 };
-
-// A whole number from lo to hi.
-std::int64_t parse_number(const std::string& option, const std::string& text, std::int64_t lo, std::int64_t hi) {
-  std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value < lo || value > hi)
-    throw UsageError(option + ": \"" + text + "\" is not a whole number from " + std::to_string(lo) + " to " +
-                     std::to_string(hi));
-  return value;
-}
 
 void parse_resolution(const std::string& text, brume::SceneOptions& changes) {
   const std::size_t x = text.find_first_of("xX");
@@ -79,6 +72,7 @@ Arguments parse_arguments(const std::vector<std::string>& given) {
   app.add_option("--grid", a.grid);
   app.add_option("--write-scene", a.write_scene);
   app.add_flag("--example", a.example);
+  app.add_flag("--variance", a.variance);
   app.add_flag("--quiet", a.quiet);
   app.add_flag("--version", a.version);
   app.add_flag("-h,--help", a.help);
@@ -109,8 +103,15 @@ brume::Scene load(const Arguments& a) {
   return scene;
 }
 
-void check_outputs(const std::vector<std::string>& outputs) {
+bool is_exr(std::string path) {
+  std::transform(path.begin(), path.end(), path.begin(), [](unsigned char c) { return std::tolower(c); });
+  return path.ends_with(".exr");
+}
+
+void check_outputs(const Arguments& a, const std::vector<std::string>& outputs) {
   for (const std::string& output : outputs) brume::Picture::check_output(output);
+  if (a.variance && !outputs.empty() && std::none_of(outputs.begin(), outputs.end(), is_exr))
+    throw UsageError("--variance needs an .exr file among the outputs, as in -o picture.exr");
 }
 
 // The picture, or nothing where the render was stopped before it began.
@@ -119,6 +120,7 @@ std::optional<brume::Picture> render(const Arguments& a, const brume::Scene& sce
   ProgressLine line(a.quiet);
   brume::RenderOptions options;
   options.threads = a.threads;
+  options.variance = a.variance;
   options.on_warning = [&](const std::string& warning) {
     line.clear();
     say(a, warning);
@@ -151,7 +153,7 @@ int render_command(const std::vector<std::string>& arguments) {
   if (a.version) return std::puts(brume::version_text().c_str()), 0;
 
   watch_for_interrupt();
-  check_outputs(a.outputs);
+  check_outputs(a, a.outputs);
   brume::Scene scene = load(a);
   scene.apply(a.changes);
   if (!scene.framing_note().empty()) say(a, scene.framing_note());
@@ -161,7 +163,7 @@ int render_command(const std::vector<std::string>& arguments) {
     if (a.outputs.empty()) return 0;
   }
   const std::vector<std::string> outputs = a.outputs.empty() ? std::vector{scene.output_filename()} : a.outputs;
-  check_outputs(outputs);
+  check_outputs(a, outputs);
   const std::optional<brume::Picture> picture = render(a, scene);
   if (interrupted()) say(a, picture ? "interrupted: saving what is rendered" : "interrupted: nothing was rendered yet");
   return picture ? save(a, *picture, outputs) : exit_interrupted;

@@ -5,5 +5,6 @@
 //   brume::render(scene).write("smoke.exr");
 #pragma once
 
+#include "brume/compare.h"
 #include "brume/render.h"
 #include "brume/scene.h"

@@ -18,7 +18,8 @@ struct Progress {
 };
 
 struct RenderOptions {
-  int threads = 0;  // 0: one per core
+  int threads = 0;        // 0: one per core
+  bool variance = false;  // estimate the picture's variance too, which takes two samples per pixel at least
   // Called now and then from the thread that called render; false stops the render early.
   std::function<bool(const Progress&)> on_progress;
   // Called from the same thread with each warning, ready to be shown, as soon as it is known.
@@ -29,13 +30,17 @@ struct RenderOptions {
 struct Picture {
   int width = 0, height = 0;
   std::vector<float> pixels;  // scene-linear Rec.709, rows from the top, three floats a pixel
+  // The variance of each of the pixels' values, estimated from the samples and true to the picture where these are
+  // independent (sampler "independent"); NaN where a pixel has fewer than two samples. Empty unless asked for.
+  std::vector<float> variance;
   int samples_per_pixel = 0;  // as rendered; of a partial picture, what every pixel has at least
   bool partial = false;       // stopped early
   double seconds = 0;
   std::int64_t invalid_samples = 0;  // samples that were not finite and were left out
   std::vector<std::string> warnings;
 
-  // Writes .exr, .png (sRGB) or .pfm by the suffix of `path`, whole or not at all. Throws Error.
+  // Writes .exr, .png (sRGB) or .pfm by the suffix of `path`, whole or not at all. The variance goes into an
+  // .exr as the layer Variance (Variance.R, .G, .B), and all values are 32-bit floats then. Throws Error.
   void write(const std::string& path) const;
   // Throws Error unless write(path) can be expected to work: a known suffix, and a folder that can be written to. To be
   // called before a long render.

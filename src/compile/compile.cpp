@@ -16,8 +16,9 @@ CompiledScene Compiler::run(std::vector<Diagnostic>& warnings) {
   compiled_.height = scene_.film.height;
   compiled_.samples_per_pixel = scene_.sampler.pixel_samples;
   compiled_.seed = scene_.sampler.seed;
-  const FilterDescription& f = scene_.filter;
-  compiled_.filter = {f.kind == FilterDescription::Kind::gaussian, f.x_radius, f.y_radius, f.sigma};
+  compiled_.sampler =
+      scene_.sampler.kind == SamplerDescription::Kind::zsobol ? SamplerKind::zsobol : SamplerKind::independent;
+  compiled_.filter = scene_.filter;
   add_camera();
   add_integrator();
   add_lights();
@@ -50,6 +51,7 @@ void Compiler::add_camera() {
 void Compiler::add_integrator() {
   const IntegratorDescription& from = scene_.integrator;
   CompiledIntegrator& to = compiled_.integrator;
+  to.kind = from.name == "classic" ? CompiledIntegrator::Kind::classic : CompiledIntegrator::Kind::reference;
   to.max_depth = from.max_depth;
   to.dda = from.traversal == Traversal::dda;
   to.step = from.step;

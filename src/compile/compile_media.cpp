@@ -44,6 +44,7 @@ CompiledGrid compile_grid(VolumeGrid grid, bool linear) {
   CompiledGrid c;
   c.table_x = static_cast<std::uint32_t>(grid.bricks.bricks[0] + 2);
   c.table_xy = c.table_x * static_cast<std::uint32_t>(grid.bricks.bricks[1] + 2);
+  c.max_density = 1.000001f * grid.bricks.max_value;
   c.bits = static_cast<std::uint32_t>(grid.bricks.storage);
   for (int axis = 0; axis < 3; ++axis) {
     c.bounds_lo[static_cast<std::size_t>(axis)] = static_cast<float>(support.lo[axis]);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/geometry.h"
+#include "base/pixel_filter.h"
 #include "base/spectrum.h"
 #include "kernel/scalar.h"
 
@@ -21,6 +22,7 @@ constexpr int max_active_media = 16;
 struct CompiledGrid {
   std::vector<std::uint32_t> table, words;
   std::uint32_t table_x = 0, table_xy = 0, bits = 16;
+  float max_density = 0;                          // bounds every value, rounding included
   std::array<float, 3> bounds_lo{}, bounds_hi{};  // index coordinates; the density is 0 outside
   kernel::BrickGrid view() const { return {table.data(), words.data(), table_x, table_xy, bits}; }
 };
@@ -85,13 +87,11 @@ struct CompiledCamera {
   double x0 = 0, dx = 0, y0 = 0, dy = 0;
 };
 
-// The pixel filter, in pixels.
-struct CompiledFilter {
-  bool gaussian = false;  // else box
-  float x_radius = 0.5f, y_radius = 0.5f, sigma = 0.5f;
-};
+// Where random numbers come from: render/random_stream.h.
+enum class SamplerKind { independent, zsobol };
 
 struct CompiledIntegrator {
+  enum class Kind { classic, reference } kind = Kind::classic;
   int max_depth = 5;
   bool dda = false;
   float placement_base = 0.5f, placement_spread = 0;  // see kernel/march.inl
@@ -102,7 +102,8 @@ struct CompiledScene {
   int width = 0, height = 0;
   int samples_per_pixel = 16;
   std::uint32_t seed = 0;
-  CompiledFilter filter;
+  SamplerKind sampler = SamplerKind::independent;
+  PixelFilter filter;
   CompiledCamera camera;
   CompiledIntegrator integrator;
 

@@ -43,6 +43,20 @@ Image Film::image() const {
   return image;
 }
 
+std::vector<float> Film::variance() const {
+  std::vector<float> variance;
+  variance.reserve(channel_count * pixels_.size());
+  for (const Pixel& pixel : pixels_)
+    for (int c = 0; c < channel_count; ++c) {
+      const double n = pixel.count, mean = pixel.sum[c] / n;
+      // Rounding can leave a difference below 0.
+      variance.push_back(pixel.count < 2
+                             ? std::numeric_limits<float>::quiet_NaN()
+                             : static_cast<float>(std::max(pixel.sum_squares[c] / n - mean * mean, 0.0) / (n - 1)));
+    }
+  return variance;
+}
+
 std::int64_t Film::invalid_samples() const {
   std::int64_t invalid = 0;
   for (const Pixel& pixel : pixels_) invalid += pixel.invalid;

@@ -24,6 +24,9 @@ class Film {
 
   // The mean of each pixel's samples; 0 where there are none.
   Image image() const;
+  // The variances of these means, estimated from the samples, as Image::variance has them: with n valid samples of mean
+  // m and mean square s, (s - m^2) / (n - 1); NaN where n < 2. True to the picture where samples are independent.
+  std::vector<float> variance() const;
   std::int64_t invalid_samples() const;
   // The number of samples that every pixel has had at least, invalid ones included.
   int samples_per_pixel() const;

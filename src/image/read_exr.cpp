@@ -14,6 +14,7 @@
 #include <stdexcept>
 
 #include "image/check_exr_header.h"
+#include "image/exr_channels.h"
 #include "image/formats.h"
 
 namespace brume {
@@ -53,6 +54,25 @@ void find_matrix(const Imf::Header& header, const char* name, std::array<std::ar
       m[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = static_cast<double>(attribute->value()[j][i]);
 }
 
+const Imf::Channel* find_channel(const Imf::InputFile& file, const char* name) {
+  return file.header().channels().findChannel(name);
+}
+
+// Has three channels of the file read into `values`, as three floats a pixel.
+void insert(Imf::FrameBuffer& frame, const Imf::InputFile& file, const ChannelNames& names,
+            std::vector<float>& values) {
+  const Imath::Box2i window = file.header().dataWindow();
+  const auto width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
+  values.resize(width * static_cast<std::size_t>(window.max.y - window.min.y + 1) * 3);
+  float* first = values.data();
+  for (const char* name : names) {
+    const Imf::Channel* channel = find_channel(file, name);
+    if (!channel) throw std::runtime_error(std::string("it has no channel ") + name);
+    if (channel->xSampling != 1 || channel->ySampling != 1) throw std::runtime_error("its channels are subsampled");
+    frame.insert(name, Imf::Slice::Make(Imf::FLOAT, first++, window, 3 * sizeof(float), 3 * sizeof(float) * width));
+  }
+}
+
 }  // namespace
 
 ImageMetadata decode_exr_metadata(std::string_view bytes) {
@@ -81,17 +101,9 @@ Image decode_exr(std::string_view bytes) {
   Imf::InputFile file(stream);
   const Imath::Box2i window = file.header().dataWindow();
   Image image{window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, {}};
-  const auto width = static_cast<std::size_t>(image.width);
-  image.pixels.resize(width * static_cast<std::size_t>(image.height) * 3);
   Imf::FrameBuffer frame;
-  for (int c = 0; c < 3; ++c) {
-    const char* name = c == 0 ? "R" : c == 1 ? "G" : "B";
-    const Imf::Channel* channel = file.header().channels().findChannel(name);
-    if (!channel) throw std::runtime_error(std::string("it has no channel ") + name);
-    if (channel->xSampling != 1 || channel->ySampling != 1) throw std::runtime_error("its channels are subsampled");
-    frame.insert(name, Imf::Slice::Make(Imf::FLOAT, image.pixels.data() + c, window, 3 * sizeof(float),
-                                        3 * sizeof(float) * width));
-  }
+  insert(frame, file, colour_channels, image.pixels);
+  if (find_channel(file, variance_channels[0])) insert(frame, file, variance_channels, image.variance);
   file.setFrameBuffer(frame);
   file.readPixels(window.min.y, window.max.y);
   return image;

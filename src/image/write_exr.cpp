@@ -1,4 +1,4 @@
-// OpenEXR: scanlines, channels R, G and B, ZIP.
+// OpenEXR: scanlines, channels R, G and B, and the layer Variance where the image has it, ZIP.
 #include <ImathMatrix.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFloatAttribute.h>
@@ -12,6 +12,7 @@
 
 #include <algorithm>
 
+#include "image/exr_channels.h"
 #include "image/formats.h"
 
 namespace brume {
@@ -48,8 +49,10 @@ Imath::M44f row_vector_matrix(const std::array<std::array<double, 4>, 4>& m) {
 Imf::Header make_header(const Image& image, const ImageMetadata& metadata) {
   Imf::Header header(image.width, image.height);
   header.compression() = Imf::ZIP_COMPRESSION;
-  for (const char* channel : {"R", "G", "B"})
+  for (const char* channel : colour_channels)
     header.channels().insert(channel, Imf::Channel(metadata.half ? Imf::HALF : Imf::FLOAT));
+  if (!image.variance.empty())
+    for (const char* channel : variance_channels) header.channels().insert(channel, Imf::Channel(Imf::FLOAT));
   header.insert("samplesPerPixel", Imf::IntAttribute(metadata.samples_per_pixel));
   header.insert("renderTimeSeconds", Imf::FloatAttribute(static_cast<float>(metadata.render_time_seconds)));
   header.insert("worldToCamera", Imf::M44fAttribute(row_vector_matrix(metadata.camera_from_world.m)));
@@ -62,16 +65,11 @@ Imf::Header make_header(const Image& image, const ImageMetadata& metadata) {
 }
 
 template <class Value>
-void write_pixels(Imf::OutputFile& file, const Image& image, Imf::PixelType type, Value* values) {
-  const std::size_t x_stride = 3 * sizeof(Value), y_stride = x_stride * static_cast<std::size_t>(image.width);
-  Imf::FrameBuffer frame;
-  for (int c = 0; c < 3; ++c)
-    frame.insert(c == 0   ? "R"
-                 : c == 1 ? "G"
-                          : "B",
-                 Imf::Slice(type, reinterpret_cast<char*>(values + c), x_stride, y_stride));
-  file.setFrameBuffer(frame);
-  file.writePixels(image.height);
+void insert(Imf::FrameBuffer& frame, const ChannelNames& names, Imf::PixelType type, const Value* values, int width) {
+  const std::size_t x_stride = 3 * sizeof(Value), y_stride = x_stride * static_cast<std::size_t>(width);
+  for (const char* name : names)  // OpenEXR asks for a pointer to what it could change, and only reads
+    frame.insert(name,
+                 Imf::Slice(type, const_cast<char*>(reinterpret_cast<const char*>(values++)), x_stride, y_stride));
 }
 
 // 65504 is the largest finite half.
@@ -83,14 +81,18 @@ std::string encode_exr(const Image& image, const ImageMetadata& metadata) {
   MemoryStream stream;
   {
     Imf::OutputFile file(stream, make_header(image, metadata));
+    Imf::FrameBuffer frame;
+    std::vector<half> halves;
     if (metadata.half) {
-      std::vector<half> values(image.pixels.size());
-      std::transform(image.pixels.begin(), image.pixels.end(), values.begin(), to_half);
-      write_pixels(file, image, Imf::HALF, values.data());
+      halves.resize(image.pixels.size());
+      std::transform(image.pixels.begin(), image.pixels.end(), halves.begin(), to_half);
+      insert(frame, colour_channels, Imf::HALF, halves.data(), image.width);
     } else {
-      std::vector<float> values = image.pixels;
-      write_pixels(file, image, Imf::FLOAT, values.data());
+      insert(frame, colour_channels, Imf::FLOAT, image.pixels.data(), image.width);
     }
+    if (!image.variance.empty()) insert(frame, variance_channels, Imf::FLOAT, image.variance.data(), image.width);
+    file.setFrameBuffer(frame);
+    file.writePixels(image.height);
   }  // the destructor writes the table of offsets
   return std::move(stream.bytes);
 }

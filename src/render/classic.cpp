@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "render/phase.h"
+#include "render/surfaces.h"
 
 namespace brume {
 
@@ -17,28 +18,6 @@ constexpr float negligible_transmittance = 1e-4f;
 constexpr int batch_size = 64;
 // With random placements, the share of scattered light that one shadow ray stands for.
 constexpr float faint_share = 1.0f / 32;
-
-// How far a ray starts from the surface that it leaves, against hitting it again: some tens of roundings of the hit's
-// coordinates and of its distance.
-vec3 leave_surface(vec3 p, vec3 n, float t) {
-  const float extent = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), t});
-  return p + (8e-6f * extent) * n;
-}
-
-float clamped_cosine(vec3 a, vec3 b) { return std::max(0.0f, dot(a, b)); }
-
-// diffuse / pi + specular (s + 8) / (8 pi) (n.h)^s: the factor keeps the highlight's energy for every shininess.
-// Source: T. Akenine-Möller et al., Real-Time Rendering, 3rd ed., eq. 7.48.
-Spectrum blinn_phong(const CompiledMaterial& m, vec3 n, vec3 to_light, vec3 to_viewer) {
-  Spectrum f = std::numbers::inv_pi_v<float> * m.diffuse;
-  if (is_zero(m.specular)) return f;
-  const vec3 sum = to_light + to_viewer;
-  const float squared = dot(sum, sum);
-  const float cosine = squared > 0 ? clamped_cosine(n, sum) / std::sqrt(squared) : 0;
-  if (cosine > 0)
-    f = f + (m.shininess + 8) / (8 * std::numbers::pi_v<float>)*kernel::pow_positive(cosine, m.shininess) * m.specular;
-  return f;
-}
 
 }  // namespace
 
@@ -59,24 +38,21 @@ Spectrum ClassicIntegrator::radiance(Ray ray, RandomStream& random) {
     if (!is_hit) return result + throughput * background();
     if (!scatters || is_zero(throughput)) return result;
 
-    vec3 side = hit.normal, shading = hit.shading_normal;
-    if (dot(side, ray.direction) > 0) side = -side, shading = -shading;
-    hit.normal = side;
-    hit.shading_normal = shading;
+    hit = facing(hit, ray.direction);
     result = result + throughput * direct_light(ray, hit, random);
 
     const auto shape = static_cast<std::size_t>(hit.shape);
     throughput = throughput * scene_.materials[static_cast<std::size_t>(scene_.shapes[shape].material)].mirror;
     if (is_zero(throughput)) return result;
-    const vec3 reflected = normalize(ray.direction - (2 * dot(ray.direction, shading)) * shading);
-    if (dot(reflected, side) <= 0) return result;
-    ray = {leave_surface(ray.at(hit.t), side, hit.t), reflected, far_away};
+    const vec3 reflected = reflect(ray.direction, hit.shading_normal);
+    if (dot(reflected, hit.normal) <= 0) return result;
+    ray = {leave_surface(ray.at(hit.t), hit.normal, hit.t), reflected, far_away};
   }
 }
 
 // What the media along the ray add, and in `transmittance` what they leave of what lies behind them.
 Spectrum ClassicIntegrator::cross_media(const Ray& ray, bool scatters, RandomStream& random, Spectrum& transmittance) {
-  complete_ = media_.find({&ray, 1}, spans_, crossings_) && complete_;
+  if (const auto place = media_.find({&ray, 1}, spans_, crossings_)) too_many_media_ = place;
   points_.clear();
   scatterings_.clear();
   find_cuts();

@@ -28,8 +28,10 @@ class ClassicIntegrator {
   // The radiance that arrives at the ray's origin.
   Spectrum radiance(Ray ray, RandomStream& random);
 
-  // False once a ray met more than max_active_media media at a time.
-  bool complete() const { return complete_ && visibility_.complete(); }
+  // A place where more than max_active_media media overlap, once a ray has met one.
+  std::optional<kernel::vec3> too_many_media() const {
+    return too_many_media_ ? too_many_media_ : visibility_.too_many_media();
+  }
 
  private:
   // A medium at a sample point of a ray, and the point's share of the light that it scatters.
@@ -61,7 +63,7 @@ class ClassicIntegrator {
   const Intersector& intersector_;
   const MediaAlongRay& media_;
   Visibility visibility_;
-  bool complete_ = true;
+  std::optional<kernel::vec3> too_many_media_;
 
   std::vector<MediumSpan> spans_, active_;  // of the current ray; those that cover the current step
   std::vector<Crossing> crossings_;

@@ -1,6 +1,9 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/diagnostics.h"
@@ -8,6 +11,7 @@
 #include "image/filter.h"
 #include "render/backend.h"
 #include "render/classic.h"
+#include "render/reference.h"
 
 namespace brume {
 
@@ -25,13 +29,36 @@ Ray camera_ray(const CompiledCamera& camera, double x, double y) {
   return {to_float(origin), to_float(direction), far_away};
 }
 
+// The integrators of one worker, of which a scene uses one.
+class Integrators {
+ public:
+  Integrators(const CompiledScene& scene, const Intersector& intersector, const MediaAlongRay& media)
+      : kind_(scene.integrator.kind), classic_(scene, intersector, media), reference_(scene, intersector, media) {}
+
+  Spectrum radiance(const Ray& ray, RandomStream& random) {
+    switch (kind_) {
+      case CompiledIntegrator::Kind::classic:
+        return classic_.radiance(ray, random);
+      case CompiledIntegrator::Kind::reference:
+        return reference_.radiance(ray, random);
+    }
+    return {};
+  }
+  std::optional<kernel::vec3> too_many_media() const {
+    return kind_ == CompiledIntegrator::Kind::classic ? classic_.too_many_media() : reference_.too_many_media();
+  }
+
+ private:
+  CompiledIntegrator::Kind kind_;
+  ClassicIntegrator classic_;
+  ReferenceIntegrator reference_;
+};
+
 class CpuBackend : public Backend {
  public:
   void prepare(const CompiledScene& scene) override {
     scene_ = &scene;
-    const CompiledFilter& f = scene.filter;
-    filter_ =
-        std::make_unique<Filter>(f.gaussian ? FilterKind::gaussian : FilterKind::box, f.x_radius, f.y_radius, f.sigma);
+    filter_ = std::make_unique<Filter>(scene.filter);
     intersector_ = std::make_unique<Intersector>(scene);
     media_ = std::make_unique<MediaAlongRay>(scene, *intersector_);
   }
@@ -42,9 +69,9 @@ class CpuBackend : public Backend {
               tiles_y = (film.height() + tile_edge - 1) / tile_edge;
     const int tiles = tiles_x * tiles_y;
     threads = thread_count(threads);
-    std::vector<std::unique_ptr<ClassicIntegrator>> integrators;
+    std::vector<std::unique_ptr<Integrators>> integrators;
     for (int i = 0; i < threads; ++i)
-      integrators.push_back(std::make_unique<ClassicIntegrator>(*scene_, *intersector_, *media_));
+      integrators.push_back(std::make_unique<Integrators>(*scene_, *intersector_, *media_));
     std::atomic<bool> stopped = false;
     std::atomic<int> done = 0;
     parallel_for(tiles, threads, [&](int tile, int worker) {
@@ -53,28 +80,28 @@ class CpuBackend : public Backend {
       ++done;
       if (worker == 0 && !keep_going(static_cast<double>(done) / tiles)) stopped = true;
     });
-    if (std::any_of(integrators.begin(), integrators.end(), [](const auto& i) { return !i->complete(); }))
-      throw InputError("scene",
-                       "more than 16 media overlap somewhere along a ray; at most 16 can be active at one point");
+    for (const auto& i : integrators)
+      if (const auto p = i->too_many_media())
+        throw InputError("scene",
+                         fmt::format("more than {} media overlap at ({}, {}, {})", max_active_media, p->x, p->y, p->z));
     return !stopped;
   }
 
  private:
-  void render_tile(int tile_x, int tile_y, int first, int last, ClassicIntegrator& integrator, Film& film) const {
+  void render_tile(int tile_x, int tile_y, int first, int last, Integrators& integrators, Film& film) const {
     const int x_end = std::min((tile_x + 1) * tile_edge, film.width()),
               y_end = std::min((tile_y + 1) * tile_edge, film.height());
     for (int y = tile_y * tile_edge; y < y_end; ++y)
       for (int x = tile_x * tile_edge; x < x_end; ++x)
-        for (int s = first; s < last; ++s) film.add(x, y, sample_pixel(x, y, s, integrator));
+        for (int s = first; s < last; ++s) film.add(x, y, sample_pixel(x, y, s, integrators));
   }
 
-  Spectrum sample_pixel(int x, int y, int index, ClassicIntegrator& integrator) const {
-    const auto pixel =
-        static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(scene_->width) + static_cast<std::uint32_t>(x);
-    RandomStream random(scene_->seed, pixel, static_cast<std::uint32_t>(index));
-    const double px = x + 0.5 + static_cast<double>(filter_->sample_x(random.next()));
-    const double py = y + 0.5 + static_cast<double>(filter_->sample_y(random.next()));
-    return integrator.radiance(camera_ray(scene_->camera, px, py), random);
+  Spectrum sample_pixel(int x, int y, int index, Integrators& integrators) const {
+    RandomStream random(*scene_, x, y, index);
+    const RandomStream::Pair place = random.next_pair();
+    const FilterSample f = filter_->sample(place.u, place.v);
+    const double px = x + 0.5 + static_cast<double>(f.x), py = y + 0.5 + static_cast<double>(f.y);
+    return f.weight * integrators.radiance(camera_ray(scene_->camera, px, py), random);
   }
 
   const CompiledScene* scene_ = nullptr;

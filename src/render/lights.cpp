@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/directions.h"
+
 namespace brume {
 
 using kernel::vec3;
@@ -19,21 +21,6 @@ LightSample sample_point(const CompiledLight& light, vec3 p) {
   return {{p, (1 / distance) * to_light, distance}, (1 / squared) * light.value};
 }
 
-vec3 direction_around_z(float z, float turns) {
-  const float r = std::sqrt(std::max(0.0f, 1 - z * z));
-  float sine = 0, cosine = 0;
-  kernel::sincos_turns(turns, sine, cosine);
-  return {r * cosine, r * sine, z};
-}
-
-// From coordinates about the z axis to coordinates about n.
-// Source: T. Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
-vec3 rotate_to(vec3 n, vec3 v) {
-  const float sign = std::copysign(1.0f, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
-  const vec3 x_axis(1 + sign * n.x * n.x * a, sign * b, -sign * n.x), y_axis(b, sign + n.y * n.y * a, -n.y);
-  return v.x * x_axis + v.y * y_axis + v.z * n;
-}
-
 }  // namespace
 
 LightSample sample_light_from_point(const CompiledLight& light, vec3 p, RandomStream& random) {
@@ -45,13 +32,14 @@ LightSample sample_light_from_point(const CompiledLight& light, vec3 p, RandomSt
     case CompiledLight::Kind::infinite:
       break;
   }
-  const float z = 1 - 2 * random.next(), turns = random.next();
-  return {{p, direction_around_z(z, turns), far_away}, 4 * std::numbers::pi_v<float> * light.value};
+  const auto [u, turns] = random.next_pair();
+  return {{p, direction_around_z(1 - 2 * u, turns), far_away}, 4 * std::numbers::pi_v<float> * light.value};
 }
 
 LightSample sample_light_from_surface(const CompiledLight& light, vec3 p, vec3 n, RandomStream& random) {
   if (light.kind != CompiledLight::Kind::infinite) return sample_light_from_point(light, p, random);
-  const float cosine = std::sqrt(1 - random.next()), turns = random.next();
+  const auto [u, turns] = random.next_pair();
+  const float cosine = std::sqrt(1 - u);
   return {{p, rotate_to(n, direction_around_z(cosine, turns)), far_away},
           (std::numbers::pi_v<float> / cosine) * light.value};
 }

@@ -81,24 +81,25 @@ std::vector<std::pair<int, int>> MediaAlongRay::counts_at(vec3 p) const {
   return counts;
 }
 
-bool MediaAlongRay::find(std::span<const Ray> rays, std::vector<MediumSpan>& spans,
-                         std::vector<Crossing>& scratch) const {
+std::optional<vec3> MediaAlongRay::find(std::span<const Ray> rays, std::vector<MediumSpan>& spans,
+                                        std::vector<Crossing>& scratch) const {
   spans.clear();
   intersector_.crossings(rays, scratch);
-  bool complete = true;
+  std::optional<vec3> too_many;
   std::size_t next = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const std::size_t first = next;
     while (next < scratch.size() && scratch[next].ray == static_cast<int>(i)) ++next;
-    complete = follow(rays[i], static_cast<int>(i), std::span(scratch).subspan(first, next - first), spans) && complete;
+    if (const auto place = follow(rays[i], static_cast<int>(i), std::span(scratch).subspan(first, next - first), spans))
+      too_many = place;
     for (const int medium : scene_.free_volumes)
       add_span(rays[i], {static_cast<int>(i), medium, 1, 0, rays[i].t_max, {0, 0, 0}, {0, 0, 0}}, spans);
   }
-  return complete;
+  return too_many;
 }
 
-bool MediaAlongRay::follow(const Ray& ray, int ray_index, std::span<const Crossing> crossings,
-                           std::vector<MediumSpan>& spans) const {
+std::optional<vec3> MediaAlongRay::follow(const Ray& ray, int ray_index, std::span<const Crossing> crossings,
+                                          std::vector<MediumSpan>& spans) const {
   ActiveMedia active;
   const auto emit = [&](const ActiveMedia::Entry& e, float t) {
     add_span(ray, {ray_index, e.medium, e.count, e.since, t, {0, 0, 0}, {0, 0, 0}}, spans);
@@ -110,19 +111,20 @@ bool MediaAlongRay::follow(const Ray& ray, int ray_index, std::span<const Crossi
   };
 
   // At the origin: the surrounding medium less all changes ahead.
-  bool complete = active.change(surrounding_medium_, 1, 0, nothing);
-  for (const Crossing& c : crossings) {
-    complete = active.change(boundary(c).inside, c.inwards ? -1 : 1, 0, nothing) && complete;
-    complete = active.change(boundary(c).outside, c.inwards ? 1 : -1, 0, nothing) && complete;
-  }
+  active.change(surrounding_medium_, 1, 0, nothing);
+  for (const Crossing& c : crossings)
+    if (!active.change(boundary(c).inside, c.inwards ? -1 : 1, 0, nothing) ||
+        !active.change(boundary(c).outside, c.inwards ? 1 : -1, 0, nothing))
+      return ray.at(c.t);
   for (const Crossing& c : crossings) {
     if (c.t >= ray.t_max) break;
-    complete = active.change(boundary(c).inside, c.inwards ? 1 : -1, c.t, emit) && complete;
-    complete = active.change(boundary(c).outside, c.inwards ? -1 : 1, c.t, emit) && complete;
+    if (!active.change(boundary(c).inside, c.inwards ? 1 : -1, c.t, emit) ||
+        !active.change(boundary(c).outside, c.inwards ? -1 : 1, c.t, emit))
+      return ray.at(c.t);
   }
   for (const auto& e : active.entries())
     if (e.count > 0 && ray.t_max > e.since) emit(e, ray.t_max);
-  return complete;
+  return std::nullopt;
 }
 
 void MediaAlongRay::add_span(const Ray& ray, MediumSpan span, std::vector<MediumSpan>& spans) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,17 +28,19 @@ class MediaAlongRay {
   MediaAlongRay(const CompiledScene& scene, const Intersector& intersector);
 
   // The media along each ray from its origin to its t_max, in no particular order within a ray. At most
-  // max_active_media at a time are followed; returns false where there were more somewhere.
+  // max_active_media at a time are followed; where there are more, returns such a place.
   //
   // How often each medium is there at the ray's origin follows from the crossings ahead: far away only the surrounding
   // medium is left. So nothing is carried from ray to ray that rounding at a boundary could get wrong.
-  bool find(std::span<const Ray> rays, std::vector<MediumSpan>& spans, std::vector<Crossing>& scratch) const;
+  std::optional<kernel::vec3> find(std::span<const Ray> rays, std::vector<MediumSpan>& spans,
+                                   std::vector<Crossing>& scratch) const;
 
   // The media at a point and how many times over each is there, free volumes apart. For messages and for the camera.
   std::vector<std::pair<int, int>> counts_at(kernel::vec3 p) const;
 
  private:
-  bool follow(const Ray& ray, int ray_index, std::span<const Crossing> crossings, std::vector<MediumSpan>& spans) const;
+  std::optional<kernel::vec3> follow(const Ray& ray, int ray_index, std::span<const Crossing> crossings,
+                                     std::vector<MediumSpan>& spans) const;
   void add_span(const Ray& ray, MediumSpan span, std::vector<MediumSpan>& spans) const;
 
   const CompiledScene& scene_;

@@ -38,7 +38,7 @@ void Visibility::find(std::span<const Ray> rays, RandomStream& random, std::vect
     open_indices_.push_back(i);
   }
 
-  complete_ = media_.find(open_rays_, spans_, crossings_) && complete_;
+  if (const auto place = media_.find(open_rays_, spans_, crossings_)) too_many_media_ = place;
   std::stable_sort(spans_.begin(), spans_.end(),
                    [](const MediumSpan& a, const MediumSpan& b) { return a.medium < b.medium; });
   optical_depth_.assign(open_rays_.size(), Spectrum{});

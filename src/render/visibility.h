@@ -22,8 +22,8 @@ class Visibility {
   // transmittance[i] = the fraction of the light that crosses rays[i], per channel.
   void find(std::span<const Ray> rays, RandomStream& random, std::vector<Spectrum>& transmittance);
 
-  // False once a ray met more than max_active_media media at a time.
-  bool complete() const { return complete_; }
+  // A place where more than max_active_media media overlap, once a ray has met one.
+  std::optional<kernel::vec3> too_many_media() const { return too_many_media_; }
 
  private:
   void add_optical_depths(int medium_index, std::span<const MediumSpan> spans, RandomStream& random);
@@ -31,7 +31,7 @@ class Visibility {
   const CompiledScene& scene_;
   const Intersector& intersector_;
   const MediaAlongRay& media_;
-  bool complete_ = true;
+  std::optional<kernel::vec3> too_many_media_;
 
   std::vector<std::uint8_t> blocked_;
   std::vector<Ray> open_rays_;

@@ -13,7 +13,9 @@
 
 #include "base/diagnostics.h"
 #include "base/geometry.h"
+#include "base/pixel_filter.h"
 #include "base/spectrum.h"
+#include "kernel/phase_table.h"
 
 namespace brume {
 
@@ -24,15 +26,13 @@ struct FilmDescription {
 };
 
 struct SamplerDescription {
+  enum class Kind { independent, zsobol } kind = Kind::zsobol;
   int pixel_samples = 16;
   std::uint32_t seed = 0;
 };
 
-struct FilterDescription {
-  enum class Kind { box, gaussian } kind = Kind::gaussian;
-  float x_radius = 1.5f, y_radius = 1.5f;  // pixels
-  float sigma = 0.5f;                      // gaussian only, pixels
-};
+// pbrt's, in the order of PixelFilter::Kind.
+inline constexpr std::string_view filter_names[] = {"box", "gaussian", "mitchell", "triangle", "sinc"};
 
 struct CameraDescription {
   Transform world_from_camera;            // camera space: +x right, +y up, +z forward
@@ -44,6 +44,11 @@ struct CameraDescription {
 
 enum class Traversal { march, dda };
 enum class Placement { start, random, middle, middle_random };
+
+// "classic" and "reference" are Brume's own; the others are pbrt-v4's, and "reference" renders what they would.
+inline constexpr std::string_view integrator_names[] = {"classic", "reference",  "volpath",    "simplevolpath",
+                                                        "path",    "simplepath", "randomwalk", "lightpath",
+                                                        "bdpt",    "mlt",        "sppm",       "ambientocclusion"};
 
 struct IntegratorDescription {
   std::string name = "classic";
@@ -79,9 +84,9 @@ struct MediumDescription {
   std::string name;
   Transform world_from_medium;
   Spectrum sigma_a = constant_spectrum(1), sigma_s = constant_spectrum(1);
-  Spectrum emission;                    // Le: the emitted radiance is sigma_a Le per unit of length
-  int phase = 0;                        // index into phase_functions()
-  std::vector<float> phase_parameters;  // in the order of the phase function's table
+  Spectrum emission;                            // Le: the emitted radiance is sigma_a Le per unit of length
+  int phase = phase_kind("henyey_greenstein");  // index into phase_functions()
+  std::vector<float> phase_parameters = {0};    // in the order of the phase function's table
   bool linear_interpolation = true;
   int storage_bits = 16;  // 8, 16 or 32
   std::variant<HomogeneousMedium, UniformGridMedium, FileMedium, CloudMedium> kind;
@@ -144,7 +149,7 @@ struct LightDescription {
 struct SceneDescription {
   FilmDescription film;
   SamplerDescription sampler;
-  FilterDescription filter;
+  PixelFilter filter;
   CameraDescription camera;
   IntegratorDescription integrator;
   std::vector<MediumDescription> media;

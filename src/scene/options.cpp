@@ -104,8 +104,10 @@ void Reader::sampler() {
   const std::vector<std::string_view> types = {"independent", "stratified", "halton", "sobol",
                                                "paddedsobol", "zsobol",     "pmj02bn"};
   if (!contains(types, type)) unknown_type(argument_, "Sampler", type, types, {});
-  if (type != "independent")
-    messages_.warning(place, fmt::format("there is one sampler so far; \"{}\" is read as \"independent\"", type));
+  if (contains({"stratified", "halton", "pmj02bn"}, type))
+    messages_.warning(place, fmt::format("Sampler \"{}\" is read as \"zsobol\"", type));
+  scene_.sampler.kind =
+      type == "independent" ? SamplerDescription::Kind::independent : SamplerDescription::Kind::zsobol;
   ParameterList p = parameters(fmt::format("Sampler \"{}\"", type));
   if (type == "stratified") {
     const std::int64_t x = p.integer("xsamples", 4, 1, 4096), y = p.integer("ysamples", 4, 1, 4096);
@@ -123,46 +125,44 @@ void Reader::sampler() {
 }
 
 void Reader::pixel_filter() {
-  const Place place = tokens_.peek().place;
   const std::string type = string_argument("a type");
-  const std::vector<std::string_view> types = {"box", "gaussian", "mitchell", "sinc", "triangle"};
+  const std::vector<std::string_view> types(std::begin(filter_names), std::end(filter_names));
   if (!contains(types, type)) unknown_type(argument_, "PixelFilter", type, types, {});
   ParameterList p = parameters(fmt::format("PixelFilter \"{}\"", type));
   p.rename("xwidth", "xradius");
   p.rename("ywidth", "yradius");
-  const double usual = type == "box" ? 0.5 : type == "gaussian" ? 1.5 : type == "sinc" ? 4 : 2;
-  const double x = p.number("xradius", usual, {0, max_filter_radius, true, false});
-  const double y = p.number("yradius", usual, {0, max_filter_radius, true, false});
-  FilterDescription& f = scene_.filter;
+  PixelFilter& f = scene_.filter;
   f = {};
-  if (type == "box" || type == "gaussian" || type == "triangle") {
-    f.x_radius = static_cast<float>(x);
-    f.y_radius = static_cast<float>(y);
+  f.kind = static_cast<PixelFilter::Kind>(std::find(types.begin(), types.end(), type) - types.begin());
+  const auto number = [&](std::string_view name, float usual, const Range& range) {
+    return static_cast<float>(p.number(name, static_cast<double>(usual), range));
+  };
+  const float usual_radius = type == "box" ? 0.5f : type == "gaussian" ? 1.5f : type == "sinc" ? 4.0f : 2.0f;
+  const Range radius{0, max_filter_radius, true, false};
+  f.x_radius = number("xradius", usual_radius, radius);
+  f.y_radius = number("yradius", usual_radius, radius);
+  if (type == "gaussian") gaussian_sigma(p);
+  if (type == "mitchell") {
+    f.b = number("B", f.b, Range::from_to(0, 1));
+    f.c = number("C", f.c, Range::from_to(0, 1));
   }
-  if (type == "box") f.kind = FilterDescription::Kind::box;
-  if (type == "gaussian") {
-    if (const double alpha = p.number("alpha", 0, Range::at_least(0)); alpha > 0) {
-      messages_.warning(p.place_of(ParameterType::float_, "alpha"),
-                        "\"float alpha\" is now \"float sigma\", which is 1 / sqrt(2 alpha)");
-      f.sigma = static_cast<float>(1 / std::sqrt(2 * alpha));
-    }
-    f.sigma = static_cast<float>(p.number("sigma", static_cast<double>(f.sigma), {0, max_filter_radius, true, false}));
-  }
-  // The gaussian of the same variance: a triangle's is radius^2 / 6. A mitchell's or sinc's main lobe is as wide as
-  // that of the default gaussian, whatever lies beyond.
-  if (type == "triangle") f.sigma = static_cast<float>((x + y) / 2 / std::sqrt(6.0));
-  if (type == "mitchell") p.ignore({"float B", "float C"});
-  if (type == "sinc") p.ignore({"float tau"});
-  if (type != "box" && type != "gaussian")
-    messages_.warning(place, fmt::format("there is no filter \"{}\" yet; a gaussian much like it is used", type));
+  if (type == "sinc") f.tau = number("tau", f.tau, Range::from_to(0.1, 1000));
   p.finish();
+}
+
+void Reader::gaussian_sigma(ParameterList& p) {
+  float& sigma = scene_.filter.sigma;
+  if (const double alpha = p.number("alpha", 0, Range::at_least(0)); alpha > 0) {
+    messages_.warning(p.place_of(ParameterType::float_, "alpha"),
+                      "\"float alpha\" is now \"float sigma\", which is 1 / sqrt(2 alpha)");
+    sigma = static_cast<float>(1 / std::sqrt(2 * alpha));
+  }
+  sigma = static_cast<float>(p.number("sigma", static_cast<double>(sigma), {0, max_filter_radius, true, false}));
 }
 
 void Reader::integrator() {
   std::string type = string_argument("a type");
-  const std::vector<std::string_view> types = {"classic",    "volpath",    "simplevolpath",   "path",
-                                               "simplepath", "randomwalk", "lightpath",       "bdpt",
-                                               "mlt",        "sppm",       "ambientocclusion"};
+  const std::vector<std::string_view> types(std::begin(integrator_names), std::end(integrator_names));
   if (!contains(types, type)) unknown_type(argument_, "Integrator", type, types, {"function"});
   ParameterList p = parameters(fmt::format("Integrator \"{}\"", type));
   IntegratorDescription& i = scene_.integrator;
@@ -175,7 +175,7 @@ void Reader::integrator() {
     i.placement = static_cast<Placement>(p.choice("placement", {"start", "random", "middle", "middle-random"},
                                                   static_cast<std::size_t>(Placement::middle)));
     i.step = p.number("step", 0, Range::at_least(0));
-  } else {
+  } else if (type != "reference") {
     p.rename("lightsamplestrategy", "lightsampler");
     p.ignore({"string lightsampler", "bool regularize", "bool samplelights", "bool samplebsdf",
               "bool visualizestrategies", "bool visualizeweights", "integer bootstrapsamples", "integer chains",

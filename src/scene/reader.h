@@ -78,6 +78,7 @@ class Reader {
   void film();
   void sampler();
   void pixel_filter();
+  void gaussian_sigma(ParameterList& p);
   void integrator();
   void accelerator();
   void color_space();

@@ -30,6 +30,21 @@ std::string numbers(Vector3 v) { return fmt::format("{} {} {}", v.x, v.y, v.z); 
 
 bool is_identity(const Transform& t) { return t == Transform(); }
 
+std::string filter_parameters(const PixelFilter& f) {
+  switch (f.kind) {
+    case PixelFilter::Kind::gaussian:
+      return fmt::format(" \"float sigma\" {}", f.sigma);
+    case PixelFilter::Kind::mitchell:
+      return fmt::format(" \"float B\" {} \"float C\" {}", f.b, f.c);
+    case PixelFilter::Kind::sinc:
+      return fmt::format(" \"float tau\" {}", f.tau);
+    case PixelFilter::Kind::box:
+    case PixelFilter::Kind::triangle:
+      break;
+  }
+  return {};
+}
+
 // Lines of text, indented by the blocks they stand in. Numbers are written with the fewest digits that read back as the
 // same.
 class Writer {
@@ -89,12 +104,12 @@ class Writer {
     const FilmDescription& film = scene.film;
     line("Film \"rgb\" \"integer xresolution\" {} \"integer yresolution\" {}", film.width, film.height);
     line("  \"string filename\" {} \"bool savefp16\" {}", quoted(film.filename), film.save_fp16);
-    line("Sampler \"independent\" \"integer pixelsamples\" {} \"integer seed\" {}", scene.sampler.pixel_samples,
+    line("Sampler \"{}\" \"integer pixelsamples\" {} \"integer seed\" {}",
+         scene.sampler.kind == SamplerDescription::Kind::zsobol ? "zsobol" : "independent", scene.sampler.pixel_samples,
          scene.sampler.seed);
-    const FilterDescription& f = scene.filter;
-    const bool box = f.kind == FilterDescription::Kind::box;
-    line("PixelFilter \"{}\" \"float xradius\" {} \"float yradius\" {}{}", box ? "box" : "gaussian", f.x_radius,
-         f.y_radius, box ? std::string() : fmt::format(" \"float sigma\" {}", f.sigma));
+    const PixelFilter& f = scene.filter;
+    line("PixelFilter \"{}\" \"float xradius\" {} \"float yradius\" {}{}",
+         filter_names[static_cast<std::size_t>(f.kind)], f.x_radius, f.y_radius, filter_parameters(f));
     const IntegratorDescription& i = scene.integrator;
     line("Integrator {} \"integer maxdepth\" {}", quoted(i.name), i.max_depth);
     if (i.name == "classic")

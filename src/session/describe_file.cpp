@@ -94,6 +94,7 @@ std::string describe_picture(const std::string& path) {
   if (m.samples_per_pixel > 0)
     lines += fmt::format("  {} samples per pixel in {:.1f} s, seed {}\n", m.samples_per_pixel, m.render_time_seconds,
                          m.seed);
+  if (!image.variance.empty()) lines += "  with the variance of each pixel\n";
   if (m.partial) lines += "  partial: the render was stopped before its end\n";
   return lines;
 }

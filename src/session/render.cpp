@@ -43,11 +43,12 @@ class Warnings {
 };
 
 CompiledScene compile_scene(const SceneDescription& description, int threads, Warnings& warnings) {
-  if (description.integrator.name != "classic")
+  const std::string& name = description.integrator.name;
+  if (name != "classic" && name != "reference")
     warnings.add(
-        fmt::format("warning: integrator \"{}\" is not built yet; rendering with \"classic\", which has single "
-                    "scattering only and no light between surfaces",
-                    description.integrator.name));
+        fmt::format("warning: integrator \"{}\" is not built yet; rendering with \"reference\", a path tracer that "
+                    "takes longer for the same picture",
+                    name));
   std::vector<Diagnostic> found;
   CompiledScene compiled = compile(description, threads, found);
   for (const Diagnostic& warning : found) warnings.add(to_string(warning));
@@ -98,7 +99,8 @@ ImageMetadata make_metadata(const CompiledScene& scene, const SceneDescription& 
   metadata.ndc_from_world = ndc_from_world(scene, metadata.camera_from_world);
   metadata.seed = scene.seed;
   metadata.partial = picture.partial;
-  metadata.half = description.film.save_fp16;
+  // Rounding to halves would be noise that the variance does not tell of.
+  metadata.half = description.film.save_fp16 && picture.variance.empty();
   metadata.software = software_name();
   return metadata;
 }
@@ -107,6 +109,8 @@ Picture render_description(const SceneDescription& description, const RenderOpti
   const Stopwatch watch;
   Warnings warnings(options);
   apply_instruction_set_choice();
+  if (options.variance && description.sampler.pixel_samples < 2)
+    throw Error("the variance can be estimated from two samples per pixel on, not from one");
   const CompiledScene scene = compile_scene(description, thread_count(options.threads), warnings);
   const std::unique_ptr<Backend> backend = make_cpu_backend();
   backend->prepare(scene);
@@ -118,6 +122,7 @@ Picture render_description(const SceneDescription& description, const RenderOpti
   picture.width = image.width;
   picture.height = image.height;
   picture.pixels = std::move(image.pixels);
+  if (options.variance) picture.variance = film.variance();
   picture.samples_per_pixel = film.samples_per_pixel();
   picture.invalid_samples = film.invalid_samples();
   picture.seconds = watch.seconds();

@@ -16,11 +16,6 @@ namespace brume {
 
 namespace {
 
-// "classic" and those of pbrt-v4, which fall back to it.
-constexpr std::array<std::string_view, 12> integrator_names{
-    "classic", "volpath", "simplevolpath", "path",      "simplepath",       "randomwalk",
-    "bdpt",    "mlt",     "sppm",          "lightpath", "ambientocclusion", "function"};
-
 constexpr int max_edge = 65536, max_samples = 1 << 24;
 constexpr std::int64_t max_pixels = std::int64_t{1} << 28;
 
@@ -31,7 +26,7 @@ void check_resolution(int width, int height) {
 }
 
 void check_integrator(const std::string& name) {
-  if (std::find(integrator_names.begin(), integrator_names.end(), name) != integrator_names.end()) return;
+  if (std::find(std::begin(integrator_names), std::end(integrator_names), name) != std::end(integrator_names)) return;
   const std::string_view nearest = nearest_name(name, integrator_names);
   throw Error(fmt::format("unknown integrator \"{}\"{}; valid are {}", name,
                           nearest.empty() ? "" : fmt::format(", did you mean \"{}\"?", nearest),

@@ -21,8 +21,9 @@ TEST(Arguments, HelpFitsOnAScreen) {
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.error, IsEmpty());
   EXPECT_LE(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 30);
-  for (const char* word : {"--output", "--spp", "--seed", "--nthreads", "--resolution", "--integrator", "--grid",
-                           "--write-scene", "--quiet", "--version", "--example", "brume info", "BRUME_ISA", ".pfm"})
+  for (const char* word :
+       {"--output", "--spp", "--seed", "--nthreads", "--resolution", "--integrator", "--grid", "--write-scene",
+        "--variance", "--quiet", "--version", "--example", "brume info", "brume compare", "BRUME_ISA", ".pfm"})
     EXPECT_THAT(outcome.out, HasSubstr(word));
   EXPECT_EQ(run(folder.path(), {"render", "--help"}).out, outcome.out);
   EXPECT_THAT(run(folder.path(), {"info", "--help"}).out, StartsWith("Usage: brume info FILE"));

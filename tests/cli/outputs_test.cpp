@@ -92,11 +92,11 @@ TEST_F(Outputs, TheWrittenExampleGivesTheSameBits) {
   EXPECT_EQ(bytes("a.pfm"), bytes("b.pfm"));
 }
 
-TEST_F(Outputs, FallsBackToClassicWithOneWarning) {
+TEST_F(Outputs, FallsBackToReferenceWithOneWarning) {
   expect_success({"a.pbrt", "--integrator", "volpath", "-o", "b.pfm"});
   EXPECT_THAT(error_, HasSubstr("integrator \"volpath\" is not built yet"));
   EXPECT_EQ(error_.find("volpath"), error_.rfind("volpath"));
-  expect_success({"a.pbrt", "-o", "a.pfm"});
+  expect_success({"a.pbrt", "--integrator", "reference", "-o", "a.pfm"});
   EXPECT_EQ(bytes("a.pfm"), bytes("b.pfm"));
 }
 

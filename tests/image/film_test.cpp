@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace brume {
@@ -21,6 +22,21 @@ TEST(Film, MeansOfSamples) {
   EXPECT_EQ(film.samples_per_pixel(), 0);  // what every pixel has
   film.add(1, 0, Spectrum{{1, 1, 1}});
   EXPECT_EQ(film.samples_per_pixel(), 1);
+}
+
+TEST(Film, VariancesOfTheMeans) {
+  Film film(3, 1);
+  for (const float v : {1.0f, 2.0f, 6.0f}) film.add(0, 0, Spectrum{{v, 0.1f, -v}});
+  film.add(0, 0, constant_spectrum(std::numeric_limits<float>::infinity()));  // counts for nothing
+  film.add(1, 0, Spectrum{{1, 1, 1}});
+  // Deviations -2, -1 and 3 from the mean: 14 / (3 - 1) is the samples' variance, a third of it that of their mean.
+  const std::vector<float> variance = film.variance();
+  ASSERT_EQ(variance.size(), 9u);
+  EXPECT_FLOAT_EQ(variance[0], 7.0f / 3);
+  EXPECT_NEAR(variance[1], 0, 1e-17);  // never below 0
+  EXPECT_GE(variance[1], 0);
+  EXPECT_FLOAT_EQ(variance[2], 7.0f / 3);
+  for (std::size_t i = 3; i < 9; ++i) EXPECT_TRUE(std::isnan(variance[i]));  // of one sample and of none
 }
 
 TEST(Film, TheOrderOfPixelsDoesNotMatter) {

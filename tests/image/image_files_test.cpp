@@ -1,4 +1,5 @@
 // Pictures in files: values and metadata survive, damage is an error and nothing else.
+#include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfMatrixAttribute.h>
@@ -8,6 +9,7 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "base/diagnostics.h"
 #include "image/image.h"
@@ -58,6 +60,28 @@ TEST(ImageFiles, FloatsSurviveInExrAndPfm) {
     EXPECT_EQ(back.height, 33);
     EXPECT_EQ(back.pixels, image.pixels) << name;
   }
+}
+
+TEST(ImageFiles, TheVarianceIsALayerOfFloatsInExr) {
+  const TemporaryFolder folder;
+  Image image = test_image(3, 20);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) image.variance.push_back(1e-7f * static_cast<float>(i + 1));
+  ImageMetadata metadata = test_metadata();
+  for (const bool half : {false, true}) {
+    metadata.half = half;
+    write_image(folder.file("a.exr"), image, metadata);
+    const Image back = read_image(folder.file("a.exr"));
+    EXPECT_EQ(back.variance, image.variance);
+    EXPECT_NEAR(back.pixels[3], image.pixels[3], 1e-4);
+    const Imf::InputFile file(folder.file("a.exr").c_str());
+    std::set<std::string> layers;
+    file.header().channels().layers(layers);
+    EXPECT_THAT(layers, ElementsAre("Variance"));
+  }
+  // The others hold the colours only.
+  write_image(folder.file("a.pfm"), image, metadata);
+  EXPECT_EQ(read_image(folder.file("a.pfm")).pixels, image.pixels);
+  EXPECT_THAT(read_image(folder.file("a.pfm")).variance, IsEmpty());
 }
 
 TEST(ImageFiles, HalvesAreRoundedAndStayFinite) {
@@ -176,7 +200,9 @@ TEST(ImageFiles, DamagedPfmIsAnError) {
 TEST(ImageFiles, DamagedExrIsAnErrorOrAPicture) {
   const TemporaryFolder folder;
   const std::string path = folder.file("a.exr"), damaged = folder.file("b.exr");
-  write_image(path, test_image(5, 20), test_metadata());
+  Image image = test_image(5, 20);
+  image.variance = image.pixels;
+  write_image(path, image, test_metadata());
   const std::string bytes = bytes_of(path);
   int refused = 0;
   const auto try_reading = [&](const std::string& content) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/scenes.h"
+#include "render/estimates.h"
 
 namespace brume {
 namespace {
@@ -76,23 +76,6 @@ TEST(SingleScattering, AGridOfOnesIsTheHomogeneousMedium) {
       EXPECT_NEAR(radiance(s, is_random ? 64 : 1), expected, tolerance * expected)
           << method.name << (linear ? ", linear" : ", nearest");
     }
-}
-
-struct Estimate {
-  double mean, standard_error;
-};
-
-Estimate estimate(SceneDescription scene, int width) {
-  scene.film.width = width;  // pixels through the same needle's eye
-  const Image image = render_film(scene, 1, 2).image();
-  double sum = 0, squares = 0;
-  for (int i = 0; i < width; ++i) {
-    const auto v = static_cast<double>(image.pixels[static_cast<std::size_t>(3 * i)]);
-    sum += v;
-    squares += v * v;
-  }
-  const double mean = sum / width;
-  return {mean, std::sqrt((squares / width - mean * mean) / (width - 1))};
 }
 
 // Catches a choice of faint points that their weights do not make up for: a bias of 1 % would stand 8 standard errors

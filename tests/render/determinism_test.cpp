@@ -9,8 +9,9 @@ namespace brume {
 namespace {
 
 // Surfaces, a homogeneous medium in a sphere, a free grid that overlaps it, all kinds of lights; 40 x 24 pixels.
-SceneDescription busy_scene() {
+SceneDescription busy_scene(SamplerDescription::Kind sampler = SamplerDescription::Kind::zsobol) {
   SceneDescription s;
+  s.sampler.kind = sampler;
   s.film.width = 40;
   s.film.height = 24;
   s.sampler.seed = 7;
@@ -32,27 +33,35 @@ SceneDescription busy_scene() {
   return s;
 }
 
+constexpr SamplerDescription::Kind samplers[] = {SamplerDescription::Kind::independent,
+                                                 SamplerDescription::Kind::zsobol};
+
 TEST(Determinism, AnyNumberOfThreadsGivesTheSameBits) {
-  const Image one = render_film(busy_scene(), 3, 1).image();
-  for (const int threads : {2, 3, 8}) EXPECT_EQ(render_film(busy_scene(), 3, threads).image().pixels, one.pixels);
+  for (const auto sampler : samplers) {
+    const Image one = render_film(busy_scene(sampler), 3, 1).image();
+    for (const int threads : {2, 3, 8})
+      EXPECT_EQ(render_film(busy_scene(sampler), 3, threads).image().pixels, one.pixels);
+  }
 }
 
 TEST(Determinism, AnySplitOfTheSamplesGivesTheSameBits) {
-  std::vector<Diagnostic> warnings;
-  const CompiledScene compiled = compile(busy_scene(), 1, warnings);
-  const auto backend = make_cpu_backend();
-  backend->prepare(compiled);
-  const auto render = [&](const std::vector<int>& ends) {
-    Film film(compiled.width, compiled.height);
-    int first = 0;
-    for (const int last : ends) {
-      backend->render(first, last, 2, film, [](double) { return true; });
-      first = last;
-    }
-    return film.image().pixels;
-  };
-  EXPECT_EQ(render({1, 2, 3, 4, 5}), render({5}));
-  EXPECT_EQ(render({2, 5}), render({5}));
+  for (const auto sampler : samplers) {
+    std::vector<Diagnostic> warnings;
+    const CompiledScene compiled = compile(busy_scene(sampler), 1, warnings);
+    const auto backend = make_cpu_backend();
+    backend->prepare(compiled);
+    const auto render = [&](const std::vector<int>& ends) {
+      Film film(compiled.width, compiled.height);
+      int first = 0;
+      for (const int last : ends) {
+        backend->render(first, last, 2, film, [](double) { return true; });
+        first = last;
+      }
+      return film.image().pixels;
+    };
+    EXPECT_EQ(render({1, 2, 3, 4, 5}), render({5}));
+    EXPECT_EQ(render({2, 5}), render({5}));
+  }
 }
 
 TEST(Determinism, AnotherSeedGivesAnotherPicture) {

@@ -9,8 +9,9 @@ namespace brume {
 SceneDescription needle_scene(Vector3 eye) {
   SceneDescription s;
   s.film.width = s.film.height = 1;
-  s.filter.kind = FilterDescription::Kind::box;
+  s.filter.kind = PixelFilter::Kind::box;
   s.filter.x_radius = s.filter.y_radius = 0.5f;
+  s.sampler.kind = SamplerDescription::Kind::independent;  // the statistical tests need samples without relation
   s.camera.fov = 1e-5;
   s.camera.world_from_camera = translate(eye);
   s.integrator.max_depth = 1;

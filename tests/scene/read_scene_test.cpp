@@ -36,7 +36,7 @@ TEST(ReadScene, FogInABox) {
   EXPECT_EQ(s.film.height, 48);
   EXPECT_EQ(s.film.filename, "fog.exr");
   EXPECT_TRUE(s.film.save_fp16);
-  EXPECT_EQ(s.filter.kind, FilterDescription::Kind::box);
+  EXPECT_EQ(s.filter.kind, PixelFilter::Kind::box);
   EXPECT_EQ(s.filter.x_radius, 0.5f);
   EXPECT_EQ(s.sampler.pixel_samples, 16);
   EXPECT_EQ(s.integrator.name, "volpath");
@@ -134,7 +134,7 @@ TEST(ReadScene, DefaultsOfAnEmptyWorld) {
   const SceneDescription s = scene_of("WorldBegin");
   EXPECT_EQ(s.film.width, 1280);
   EXPECT_EQ(s.film.height, 720);
-  EXPECT_EQ(s.filter.kind, FilterDescription::Kind::gaussian);
+  EXPECT_EQ(s.filter.kind, PixelFilter::Kind::gaussian);
   EXPECT_EQ(s.filter.sigma, 0.5f);
   EXPECT_EQ(s.sampler.pixel_samples, 16);
   EXPECT_EQ(s.camera.fov, 90);
@@ -163,10 +163,39 @@ TEST(ReadScene, SamplersAndFilters) {
   EXPECT_EQ(scene_of("Sampler \"halton\" WorldBegin").sampler.pixel_samples, 16);
   EXPECT_EQ(scene_of("Option \"seed\" 3 WorldBegin").sampler.seed, 3u);
   EXPECT_EQ(scene_of("Option \"seed\" 3 Sampler \"independent\" \"integer seed\" 4 WorldBegin").sampler.seed, 4u);
-  const FilterDescription triangle = scene_of("PixelFilter \"triangle\" WorldBegin").filter;
-  EXPECT_EQ(triangle.kind, FilterDescription::Kind::gaussian);
-  EXPECT_NEAR(triangle.sigma, 2 / std::sqrt(6.0), 1e-6);
   EXPECT_NEAR(scene_of("PixelFilter \"gaussian\" \"float alpha\" 2 WorldBegin").filter.sigma, 0.5, 1e-7);
+}
+
+TEST(ReadScene, EverySamplerButIndependentIsZsobol) {
+  using Kind = SamplerDescription::Kind;
+  const auto read = [](const std::string& name, std::size_t expected_warnings) {
+    std::vector<Diagnostic> warnings;
+    const SceneDescription s = scene_of("Sampler \"" + name + "\" WorldBegin", &warnings);
+    EXPECT_EQ(warnings.size(), expected_warnings) << name;
+    return s.sampler.kind;
+  };
+  EXPECT_EQ(scene_of("WorldBegin").sampler.kind, Kind::zsobol);
+  EXPECT_EQ(read("independent", 0), Kind::independent);
+  for (const char* name : {"zsobol", "sobol", "paddedsobol"}) EXPECT_EQ(read(name, 0), Kind::zsobol);
+  for (const char* name : {"halton", "pmj02bn", "stratified"}) EXPECT_EQ(read(name, 1), Kind::zsobol);
+}
+
+TEST(ReadScene, FiltersHavePbrtsDefaults) {
+  using Kind = PixelFilter::Kind;
+  const auto filter = [](const std::string& text) {
+    std::vector<Diagnostic> warnings;
+    const SceneDescription s = scene_of("PixelFilter " + text + " WorldBegin", &warnings);
+    EXPECT_TRUE(warnings.empty()) << text;
+    return s.filter;
+  };
+  EXPECT_EQ(filter("\"box\""), (PixelFilter{Kind::box, 0.5f, 0.5f}));
+  EXPECT_EQ(filter("\"gaussian\""), (PixelFilter{Kind::gaussian, 1.5f, 1.5f, 0.5f}));
+  EXPECT_EQ(filter("\"triangle\""), (PixelFilter{Kind::triangle, 2, 2}));
+  EXPECT_EQ(filter("\"mitchell\""), (PixelFilter{Kind::mitchell, 2, 2}));
+  EXPECT_EQ(filter("\"sinc\""), (PixelFilter{Kind::sinc, 4, 4}));
+  const PixelFilter mitchell = filter("\"mitchell\" \"float B\" 0.25 \"float C\" 0.5 \"float yradius\" 3");
+  EXPECT_EQ(mitchell, (PixelFilter{Kind::mitchell, 2, 3, 0.5f, 0.25f, 0.5f}));
+  EXPECT_EQ(filter("\"sinc\" \"float tau\" 2").tau, 2);
 }
 
 TEST(ReadScene, EveryPhaseFunctionOfTheKernelCanBeNamed) {
@@ -178,9 +207,14 @@ TEST(ReadScene, EveryPhaseFunctionOfTheKernelCanBeNamed) {
     EXPECT_EQ(phase_functions()[static_cast<std::size_t>(s.media[0].phase)].table.name, entry.table.name);
     for (const PhaseParameter& p : entry.table.parameters) {
       if (p.name.empty()) break;
-      const std::string outside = std::to_string(p.hi);
-      EXPECT_EQ(errors_of("WorldBegin " + head + " \"float " + std::string(p.name) + "\" " + outside).size(), 1u)
-          << entry.table.name << ' ' << p.name;
+      const auto errors_at = [&](double value) {
+        return errors_of("WorldBegin " + head + " \"float " + std::string(p.name) + "\" " + std::to_string(value))
+            .size();
+      };
+      for (const double end : {p.lo, p.hi})
+        EXPECT_EQ(errors_at(end), p.ends_included ? 0u : 1u) << entry.table.name << ' ' << p.name << ' ' << end;
+      for (const double outside : {p.lo - 0.001, p.hi + 0.001})
+        EXPECT_EQ(errors_at(outside), 1u) << entry.table.name << ' ' << p.name << ' ' << outside;
     }
   }
   EXPECT_EQ(errors_of("WorldBegin MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"string phase\" \"x\"").size(),

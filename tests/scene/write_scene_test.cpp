@@ -97,12 +97,10 @@ void expect_equal(const SceneDescription& a, const SceneDescription& b) {
   EXPECT_EQ(a.film.width, b.film.width);
   EXPECT_EQ(a.film.height, b.film.height);
   EXPECT_EQ(a.film.save_fp16, b.film.save_fp16);
+  EXPECT_EQ(a.sampler.kind, b.sampler.kind);
   EXPECT_EQ(a.sampler.pixel_samples, b.sampler.pixel_samples);
   EXPECT_EQ(a.sampler.seed, b.sampler.seed);
-  EXPECT_EQ(a.filter.kind, b.filter.kind);
-  EXPECT_EQ(a.filter.x_radius, b.filter.x_radius);
-  EXPECT_EQ(a.filter.y_radius, b.filter.y_radius);
-  EXPECT_EQ(a.filter.sigma, b.filter.sigma);
+  EXPECT_EQ(a.filter, b.filter);
   EXPECT_EQ(a.integrator.name, b.integrator.name);
   EXPECT_EQ(a.integrator.max_depth, b.integrator.max_depth);
   EXPECT_EQ(a.integrator.traversal, b.integrator.traversal);
@@ -136,12 +134,31 @@ INSTANTIATE_TEST_SUITE_P(Scenes, WriteSceneFile, testing::Values("fog.pbrt", "sm
 
 TEST(WriteScene, AnEmptySceneReadsBackTheSame) { expect_round_trip({}); }
 
+TEST(WriteScene, EverySamplerAndFilterReadsBackTheSame) {
+  using Kind = PixelFilter::Kind;
+  SceneDescription scene;
+  for (const auto kind : {SamplerDescription::Kind::independent, SamplerDescription::Kind::zsobol}) {
+    scene.sampler.kind = kind;
+    expect_round_trip(scene);
+  }
+  const std::vector<PixelFilter> filters = {{Kind::box, 0.7f, 0.6f},
+                                            {Kind::gaussian, 1.1f, 2.3f, 0.37f},
+                                            {Kind::mitchell, 2.1f, 1.9f, 0.5f, 0.2f, 0.4f},
+                                            {Kind::triangle, 1.3f, 0.9f},
+                                            {Kind::sinc, 3.7f, 4.1f, 0.5f, 1 / 3.0f, 1 / 3.0f, 2.9f}};
+  for (const PixelFilter& filter : filters) {
+    scene.filter = filter;
+    expect_round_trip(scene);
+  }
+}
+
 TEST(WriteScene, NamesWithSpecialCharactersReadBackTheSame) {
   SceneDescription scene;
   scene.film.filename = "C:\\new folder\\\"x\"\t[1] # \xc3\xa9.exr";
   scene.media.push_back({});
   scene.media[0].name = "/obj/x/volumewrangle1[3,4,5]\n";
   scene.media[0].phase = phase_kind("isotropic");
+  scene.media[0].phase_parameters.clear();
   scene.camera.medium = scene.media[0].name;
   expect_round_trip(scene);
 }

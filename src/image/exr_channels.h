@@ -1,0 +1,12 @@
+// The names of the channels that pictures have in OpenEXR files.
+#pragma once
+
+#include <array>
+
+namespace brume {
+
+using ChannelNames = std::array<const char*, 3>;
+
+constexpr ChannelNames colour_channels{"R", "G", "B"}, variance_channels{"Variance.R", "Variance.G", "Variance.B"};
+
+}  // namespace brume

@@ -1,0 +1,65 @@
+// Integrator "reference": volumetric path tracing as the textbooks have it, without bias and without cleverness. It is
+// what every faster estimator is tested against.
+//
+// From the camera on, a path flies to its next collision with a medium or to a surface, gathers there the light that
+// arrives directly (next-event estimation), and goes on in a direction drawn from the phase function or the surface.
+// Flight is delta tracking: tentative collisions come at the rate of a majorant, a constant that bounds the extinction
+// of all media together, and each is real with probability sigma_t / majorant, else null. Transmittance towards lights
+// is ratio tracking: the product of (1 - sigma_t / majorant) over tentative collisions, and exact through homogeneous
+// media. Where extinction depends on the channel, one path serves all channels: the chance of a real collision is the
+// mean over channels weighted by the path's throughput, and each channel's throughput is corrected by the ratio of its
+// own coefficient to that mean, so weights stay bounded. Light of infinite lights is found both by next-event
+// estimation and by flights that leave the scene; the balance heuristic weighs the two. Sources: E. Woodcock et al.,
+// "Techniques used in the GEM code", ANL-7050, 1965 (delta tracking); J. Novak et al., "Residual Ratio Tracking", TOG
+// 33(6), 2014 (ratio tracking); P. Kutz et al., "Spectral and Decomposition Tracking", TOG 36(4), 2017 (history-aware
+// channels); B. Miller et al., "A null-scattering path integral formulation of light transport", TOG 38(4), 2019; E.
+// Veach, PhD thesis, 1997, sections 9.2 and 10.4 (balance heuristic, roulette).
+#pragma once
+
+#include <vector>
+
+#include "render/lights.h"
+#include "render/media_along_ray.h"
+
+namespace brume {
+
+// One to each worker: it keeps its arrays from sample to sample.
+class ReferenceIntegrator {
+ public:
+  ReferenceIntegrator(const CompiledScene& scene, const Intersector& intersector, const MediaAlongRay& media)
+      : scene_(scene), intersector_(intersector), media_(media) {}
+
+  // The radiance that arrives at the ray's origin.
+  Spectrum radiance(Ray ray, RandomStream& random);
+
+  // A place where more than max_active_media media overlap, once a ray has met one.
+  std::optional<kernel::vec3> too_many_media() const { return too_many_media_; }
+  // How often a density exceeded its majorant, which would be a fault of ours.
+  std::int64_t majorant_violations() const { return majorant_violations_; }
+
+ private:
+  struct Collision {
+    kernel::vec3 position;
+    int medium;
+  };
+
+  bool fly(const Ray& ray, RandomStream& random, Spectrum& throughput, Spectrum& emitted, Collision& collision);
+  Spectrum transmittance(const Ray& ray, RandomStream& random);
+  Spectrum light_at_collision(const Ray& ray, const Collision& collision, RandomStream& random);
+  Spectrum light_at_surface(const Ray& ray, const SurfaceHit& hit, RandomStream& random);
+  template <class Visit>
+  void tentative_collisions(const Ray& ray, bool grids_only, RandomStream& random, Visit visit);
+  float density(const MediumSpan& span, float t) const;
+
+  const CompiledScene& scene_;
+  const Intersector& intersector_;
+  const MediaAlongRay& media_;
+  std::optional<kernel::vec3> too_many_media_;
+  std::int64_t majorant_violations_ = 0;
+
+  std::vector<MediumSpan> spans_, active_;  // along the current ray; those that cover the current stretch
+  std::vector<float> cuts_;                 // where the set of media changes
+  std::vector<Crossing> crossings_;
+};
+
+}  // namespace brume
