@@ -1,6 +1,7 @@
 // The seam between a scene and what renders it: the CPU here, a GPU elsewhere.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 
@@ -22,6 +23,10 @@ class Backend {
   // are split into calls.
   virtual bool render(int first, int last, int threads, Film& film,
                       const std::function<bool(double fraction)>& keep_going) = 0;
+
+  // How often, in all that was rendered since prepare, a density was found above its majorant. A fault of ours where it
+  // is not 0: the picture has a bias.
+  virtual std::int64_t majorant_violations() const = 0;
 };
 
 std::unique_ptr<Backend> make_cpu_backend();

@@ -47,6 +47,7 @@ class Integrators {
   std::optional<kernel::vec3> too_many_media() const {
     return kind_ == CompiledIntegrator::Kind::classic ? classic_.too_many_media() : reference_.too_many_media();
   }
+  std::int64_t majorant_violations() const { return reference_.majorant_violations(); }
 
  private:
   CompiledIntegrator::Kind kind_;
@@ -61,7 +62,10 @@ class CpuBackend : public Backend {
     filter_ = std::make_unique<Filter>(scene.filter);
     intersector_ = std::make_unique<Intersector>(scene);
     media_ = std::make_unique<MediaAlongRay>(scene, *intersector_);
+    majorant_violations_ = 0;
   }
+
+  std::int64_t majorant_violations() const override { return majorant_violations_; }
 
   bool render(int first, int last, int threads, Film& film,
               const std::function<bool(double fraction)>& keep_going) override {
@@ -80,6 +84,7 @@ class CpuBackend : public Backend {
       ++done;
       if (worker == 0 && !keep_going(static_cast<double>(done) / tiles)) stopped = true;
     });
+    for (const auto& i : integrators) majorant_violations_ += i->majorant_violations();
     for (const auto& i : integrators)
       if (const auto p = i->too_many_media())
         throw InputError("scene",
@@ -105,6 +110,7 @@ class CpuBackend : public Backend {
   }
 
   const CompiledScene* scene_ = nullptr;
+  std::int64_t majorant_violations_ = 0;
   std::unique_ptr<Filter> filter_;
   std::unique_ptr<Intersector> intersector_;
   std::unique_ptr<MediaAlongRay> media_;

@@ -125,6 +125,11 @@ Picture render_description(const SceneDescription& description, const RenderOpti
   if (options.variance) picture.variance = film.variance();
   picture.samples_per_pixel = film.samples_per_pixel();
   picture.invalid_samples = film.invalid_samples();
+  if (backend->majorant_violations() > 0)
+    warnings.add(
+        fmt::format("warning: {} densities exceeded the bound that tracking relies on; the picture is biased, and "
+                    "this is a fault in Brume",
+                    backend->majorant_violations()));
   picture.seconds = watch.seconds();
   if (picture.invalid_samples > 0)
     warnings.add(fmt::format("warning: {} samples were not finite numbers and were left out", picture.invalid_samples));

@@ -18,15 +18,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-std::string error_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "no error";
-}
-
 TEST(AtomicFile, WritesAndReplaces) {
   const TemporaryFolder folder;
   const std::string path = folder.file("with spaces and ümläuts.txt");

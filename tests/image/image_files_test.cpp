@@ -41,15 +41,6 @@ ImageMetadata test_metadata() {
   return m;
 }
 
-std::string error_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "no error";
-}
-
 TEST(ImageFiles, FloatsSurviveInExrAndPfm) {
   const TemporaryFolder folder;
   const Image image = test_image(19, 33);  // more than two blocks of ZIP's 16 rows

@@ -1,14 +1,17 @@
-// A folder for a test's files, gone at the end of the test.
+// For tests of files: a folder that is gone at the end of the test, and what an error says.
 #pragma once
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "base/diagnostics.h"
 
 namespace brume {
 
@@ -49,6 +52,16 @@ inline std::string bytes_of(const std::string& path) {
 
 inline void write_bytes_to(const std::string& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
+}
+
+// What the InputError that `action` throws says; "no error" where it throws none.
+inline std::string error_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "no error";
 }
 
 }  // namespace brume

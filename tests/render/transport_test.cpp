@@ -8,6 +8,8 @@
 
 #include <cmath>
 
+#include "compile/compile.h"
+#include "render/backend.h"
 #include "render/estimates.h"
 
 namespace brume {
@@ -95,6 +97,34 @@ TEST(WhiteFurnace, EveryPixelIsOne) {
   // Its twin, which absorbs a hundredth of what it scatters.
   s.media[1].sigma_a = constant_spectrum(0.03f);
   expect_rejected(s, 1);
+}
+
+// Catches a majorant that does not bound the density: the renderer counts it. Every storage of a grid is bounded.
+TEST(Majorants, ViolationsAreCountedAndThereAreNone) {
+  std::vector<float> density(9 * 9 * 9);
+  for (std::size_t i = 0; i < density.size(); ++i) density[i] = static_cast<float>((i * 7919) % 1009) / 1008 * 3.7f;
+  for (const int bits : {8, 16, 32}) {
+    SceneDescription s = needle_scene({0, 0, -3});
+    s.camera.fov = 40;
+    s.film.width = s.film.height = 64;
+    s.integrator.name = "reference";
+    s.media = {grid_medium("grid", {-1, -1, -1}, {1, 1, 1}, {9, 9, 9}, density, 0.1f, 4)};
+    s.media[0].storage_bits = bits;
+    s.shapes = {free_volume("grid")};
+    s.lights = {sky(1)};
+    std::vector<Diagnostic> warnings;
+    CompiledScene compiled = compile(s, 1, warnings);
+    const auto violations = [&] {
+      const auto backend = make_cpu_backend();
+      backend->prepare(compiled);
+      Film film(compiled.width, compiled.height);
+      backend->render(0, 16, 2, film, [](double) { return true; });
+      return backend->majorant_violations();
+    };
+    EXPECT_EQ(violations(), 0) << bits;
+    compiled.grids[0].max_density *= 0.9f;
+    EXPECT_GT(violations(), 0) << bits;
+  }
 }
 
 // The fraction of uniform isotropic emission in a purely absorbing sphere of radius x mean free paths that escapes:
