@@ -92,7 +92,7 @@ Spectrum ReferenceIntegrator::radiance(Ray ray, RandomStream& random) {
 // Visits tentative collisions along the ray, nearest first, at the rate of a majorant of all media together (or of
 // those with grids), until visit(t, majorant) returns false. active_ then holds the media that are there.
 template <class Visit>
-void ReferenceIntegrator::tentative_collisions(const Ray& ray, bool grids_only, RandomStream& random, Visit visit) {
+void ReferenceIntegrator::tentative_collisions(bool grids_only, RandomStream& random, Visit visit) {
   const auto medium_of = [&](const MediumSpan& span) -> const CompiledMedium& {
     return scene_.media[static_cast<std::size_t>(span.medium)];
   };
@@ -113,8 +113,13 @@ void ReferenceIntegrator::tentative_collisions(const Ray& ray, bool grids_only, 
       majorant += static_cast<float>(span.count) * max_density * max_value(medium.sigma_t);
     }
     if (majorant == 0) continue;
-    for (float t = cuts_[i] + exponential(majorant, random); t < cuts_[i + 1]; t += exponential(majorant, random))
-      if (!visit(std::min(t, ray.t_max), majorant)) return;
+    // In double: far away and in dense media, float would not advance.
+    double t = static_cast<double>(cuts_[i]);
+    for (;;) {
+      t += static_cast<double>(exponential(majorant, random));
+      if (!(t < static_cast<double>(cuts_[i + 1]))) break;
+      if (!visit(std::min(static_cast<float>(t), cuts_[i + 1]), majorant)) return;
+    }
   }
 }
 
@@ -132,7 +137,7 @@ bool ReferenceIntegrator::fly(const Ray& ray, RandomStream& random, Spectrum& th
                               Collision& collision) {
   if (const auto place = media_.find({&ray, 1}, spans_, crossings_)) too_many_media_ = place;
   bool collides = false;
-  tentative_collisions(ray, false, random, [&](float t, float majorant) {
+  tentative_collisions(false, random, [&](float t, float majorant) {
     Spectrum sigma_t, emission;
     for (const MediumSpan& span : active_) {
       const CompiledMedium& medium = scene_.media[static_cast<std::size_t>(span.medium)];
@@ -184,7 +189,7 @@ Spectrum ReferenceIntegrator::transmittance(const Ray& ray, RandomStream& random
     const float amount = static_cast<float>(span.count) * (span.t_end - span.t_begin);
     for (int c = 0; c < channel_count; ++c) result[c] *= kernel::beer_lambert(amount * medium.sigma_t[c]);
   }
-  tentative_collisions(ray, true, random, [&](float t, float majorant) {
+  tentative_collisions(true, random, [&](float t, float majorant) {
     Spectrum sigma_t;
     for (const MediumSpan& span : active_)
       sigma_t = sigma_t + density(span, t) * scene_.media[static_cast<std::size_t>(span.medium)].sigma_t;

@@ -48,7 +48,7 @@ class ReferenceIntegrator {
   Spectrum light_at_collision(const Ray& ray, const Collision& collision, RandomStream& random);
   Spectrum light_at_surface(const Ray& ray, const SurfaceHit& hit, RandomStream& random);
   template <class Visit>
-  void tentative_collisions(const Ray& ray, bool grids_only, RandomStream& random, Visit visit);
+  void tentative_collisions(bool grids_only, RandomStream& random, Visit visit);
   float density(const MediumSpan& span, float t) const;
 
   const CompiledScene& scene_;

@@ -42,11 +42,11 @@ double block_difference(const Image& picture, const Image& stored) {
 
 class Pictures : public ::testing::TestWithParam<const char*> {
  protected:
-  SceneDescription scene() const {
+  static SceneDescription scene() {
     std::vector<Diagnostic> warnings;
     return read_scene(std::string(TEST_DATA) + "/pictures/" + GetParam() + ".pbrt", warnings);
   }
-  std::string stored_path() const { return std::string(TEST_DATA) + "/pictures/" + GetParam() + ".exr"; }
+  static std::string stored_path() { return std::string(TEST_DATA) + "/pictures/" + GetParam() + ".exr"; }
 };
 
 TEST_P(Pictures, LookAsTheyDid) {

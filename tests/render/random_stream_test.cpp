@@ -84,7 +84,8 @@ double low_frequency_power(SamplerKind sampler, int samples, int pair) {
       if (fx == 0 && fy <= 0) continue;
       double re = 0, im = 0;
       for (int i = 0; i < edge * edge; ++i) {
-        const double turn = 2 * std::numbers::pi * (fx * (i % edge) + fy * (i / edge)) / edge;
+        const int x = i % edge, y = i / edge;
+        const double turn = 2 * std::numbers::pi * (fx * x + fy * y) / edge;
         re += errors[static_cast<std::size_t>(i)] * std::cos(turn);
         im += errors[static_cast<std::size_t>(i)] * std::sin(turn);
       }
