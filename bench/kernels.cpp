@@ -52,7 +52,7 @@ namespace {
 struct Grid {
   int edge;
   Storage storage;
-  auto operator<=>(const Grid&) const = default;
+  auto operator<=>(const Grid&) const = default;  // NOLINT(modernize-use-nullptr): of generated code
 };
 
 // Noise, made when first asked for.

@@ -67,7 +67,7 @@ float inside_argument(int n, int argument) {
   return argument < 3 ? uniform(n, argument, 0, 16) : component(n, argument);
 }
 
-Arguments phase_arguments(bool with_number, float lo, std::string name) {
+Arguments phase_arguments(bool with_number, float lo, const std::string& name) {
   const std::vector<PhaseCase> all = phase_cases();
   std::vector<kernel::vec4> prepared;
   for (const PhaseCase& phase : all)
