@@ -78,7 +78,7 @@ TEST(SingleScattering, AGridOfOnesIsTheHomogeneousMedium) {
     }
 }
 
-// Catches a choice of faint points that their weights do not make up for: a bias of 1 % would stand 8 standard errors
+// For a choice of faint points that their weights do not make up for: a bias of 1 % would stand 8 standard errors
 // out.
 TEST(SingleScattering, FaintPointsAreChosenWithoutBias) {
   SceneDescription s = single_scattering(0.05f, 0.02f, 0.6f);

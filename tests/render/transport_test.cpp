@@ -75,7 +75,7 @@ TEST(SlabTwins, AnotherAnisotropyIsRejected) {
   expect_rejected(slab_scene(slab, true), 0.097395);
 }
 
-// Catches next-event estimation that counts infinite lights twice, once by itself and once by flights that leave.
+// Catches an albedo that is 0.01 too high.
 TEST(SlabTwins, AnotherAlbedoIsRejected) {
   Slab slab{"", "isotropic", {}, 0.91f, 1, 0, 0, 0};
   expect_rejected(slab_scene(slab, true), 0.267410);
@@ -190,8 +190,7 @@ TEST(Integrators, ReferenceIsClassicAtDepthOne) {
   const double error = std::hypot(classic.standard_error, reference.standard_error);
   EXPECT_LT(error, 3e-3 * classic.mean);
   EXPECT_LE(std::abs(classic.mean - reference.mean), 4 * error);
-  // Its twin, without the sky's light by next-event estimation or by flights that leave: one of the two would be
-  // missed.
+  // Its twin, with a tenth of the sky's light missing.
   s.lights[0] = sky(0.27f);
   EXPECT_GT(std::abs(estimate(s, 400000).mean - classic.mean), 8 * error);
 }
