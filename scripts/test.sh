@@ -1,17 +1,18 @@
 #!/usr/bin/env bash
-# scripts/test.sh [release|asan|tsan|all]...: sets up, builds and runs the tests by CTest, preset by preset; stops at the
-# first preset with a failure. Without arguments: release and asan (AddressSanitizer and UndefinedBehaviorSanitizer).
+# scripts/test.sh [release|asan|tsan|all|nightly]...: sets up, builds and runs the tests by CTest, preset by preset; stops
+# at the first preset with a failure. Without arguments: release and asan (AddressSanitizer and
+# UndefinedBehaviorSanitizer). nightly: the long tests, which the others leave out, in release.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 presets=()
 for name in "${@:-default}"; do
   case $name in
-    release | asan | tsan) presets+=("$name") ;;
+    release | asan | tsan | nightly) presets+=("$name") ;;
     default) presets+=(release asan) ;;
     all) presets+=(release asan tsan) ;;
     *)
-      echo "usage: scripts/test.sh [release|asan|tsan|all]..." >&2
+      echo "usage: scripts/test.sh [release|asan|tsan|all|nightly]..." >&2
       exit 2
       ;;
   esac
@@ -22,6 +23,6 @@ export UBSAN_OPTIONS=print_stacktrace=1
 export TSAN_OPTIONS=second_deadlock_stack=1
 
 for preset in "${presets[@]}"; do
-  scripts/build.sh "$preset"
+  scripts/build.sh "${preset/nightly/release}"
   ctest --preset "$preset" --parallel "$(nproc)"
 done

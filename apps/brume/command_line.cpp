@@ -64,3 +64,11 @@ std::int64_t parse_number(const std::string& option, const std::string& text, st
                      std::to_string(hi));
   return value;
 }
+
+double parse_seconds(const std::string& option, const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !(value > 0 && value <= 1e9))
+    throw UsageError(option + ": \"" + text + "\" is not a number of seconds above 0");
+  return value;
+}

@@ -18,3 +18,5 @@ void parse(CLI::App& app, std::vector<std::string> arguments);
 
 // A whole number from lo to hi, given for `option`; throws UsageError.
 std::int64_t parse_number(const std::string& option, const std::string& text, std::int64_t lo, std::int64_t hi);
+// A number of seconds above 0, given for `option`; throws UsageError.
+double parse_seconds(const std::string& option, const std::string& text);

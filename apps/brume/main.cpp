@@ -3,6 +3,7 @@
 #include <exception>
 #include <map>
 
+#include "bench_command.h"
 #include "brume/brume.h"
 #include "command_line.h"
 #include "compare_command.h"
@@ -15,7 +16,7 @@ int run(std::vector<std::string> arguments) {
   const std::string command = arguments.empty() ? "" : arguments.front();
   using Command = int (*)(const std::vector<std::string>&);
   const std::map<std::string, Command> commands = {
-      {"compare", compare_command}, {"info", info_command}, {"render", render_command}};
+      {"bench", bench_command}, {"compare", compare_command}, {"info", info_command}, {"render", render_command}};
   const auto named = commands.find(command);
   if (named == commands.end()) return render_command(arguments);
   arguments.erase(arguments.begin());

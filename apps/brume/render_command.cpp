@@ -1,7 +1,9 @@
 #include "render_command.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <charconv>
 #include <cstdint>
 #include <cstdio>
 #include <optional>
@@ -20,20 +22,24 @@ const char* const help_text =
        brume --example [options]         render the built-in example, a cloud over a ground
        brume info FILE                   show what a scene, a volume or a picture holds
        brume compare A B [REF]           how far two pictures are apart
+       brume bench                       how fast this machine is
 
-  -o, --output FILE    where the picture goes: .png, .exr or .pfm; may be repeated.
-                       Default: the file that the scene names; for a volume, VOLUME.png
-  --spp N              samples per pixel
-  --seed N             of the random numbers; the same seed gives the same picture
-  --nthreads N         default 0: one per core
-  --resolution WxH     in pixels
-  --integrator NAME    instead of the scene's
-  --grid NAME          of a volume file; default "density", or the only one there is
-  --write-scene FILE   save the scene as .pbrt; without -o, instead of rendering
-  --variance           add the variance of each pixel to .exr files, for brume compare
-  --quiet              errors only
-  --version, --help    BRUME_ISA=avx512|avx2|sse4|scalar in the environment chooses
-                       the instruction set that --version shows
+  -o, --output FILE     where the picture goes: .png, .exr or .pfm; may be repeated.
+                        Default: the file that the scene names; for a volume, VOLUME.png
+  --spp N               samples per pixel
+  --time SECONDS        as many samples as fit in this time, at most --spp
+  --seed N              of the random numbers; the same seed gives the same picture
+  --nthreads N          default 0: one per core
+  --resolution WxH      in pixels
+  --cropwindow X0,X1,Y0,Y1   only that part of the picture; fractions, Y from the top
+  --integrator NAME     instead of the scene's
+  --grid NAME           of a volume file; default "density", or the only one there is
+  --write-scene FILE    save the scene as .pbrt; without -o, instead of rendering
+  --write-partial-images     write the picture so far every few seconds
+  --variance            add the variance of each pixel to .exr files, for brume compare
+  --quiet               errors only
+  --version, --help     BRUME_ISA=avx512|avx2|sse4|scalar in the environment chooses
+                        the instruction set that --version shows
 
 A volume on its own is framed, lit by sun and sky and scaled to a stated optical depth.
 Ctrl-C saves what is rendered so far; a second Ctrl-C ends at once.
@@ -46,7 +52,8 @@ struct Arguments {
   std::string file, grid, write_scene;
   std::vector<std::string> outputs;
   int threads = 0;
-  bool example = false, variance = false, quiet = false, help = false, version = false;
+  double seconds = 0;  // 0: no limit
+  bool example = false, partial_images = false, variance = false, quiet = false, help = false, version = false;
   brume::SceneOptions changes;
 };
 
@@ -57,21 +64,39 @@ void parse_resolution(const std::string& text, brume::SceneOptions& changes) {
   changes.height = static_cast<int>(parse_number("--resolution: height", text.substr(x + 1), 1, 65536));
 }
 
+// "0,0.5,0,1"; which numbers make a window is for the scene to say.
+std::array<double, 4> parse_crop_window(const std::string& text) {
+  std::array<double, 4> window{};
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (std::size_t i = 0; i < window.size(); ++i) {
+    const auto [next, error] = std::from_chars(at, end, window[i]);
+    const bool last = i + 1 == window.size();
+    if (error != std::errc() || (last ? next != end : next == end || *next != ','))
+      throw UsageError("--cropwindow: \"" + text + "\" is not X0,X1,Y0,Y1, as in 0,0.5,0,1 for the left half");
+    at = next + 1;
+  }
+  return window;
+}
+
 Arguments parse_arguments(const std::vector<std::string>& given) {
   Arguments a;
-  std::string samples, seed, threads, resolution;
+  std::string samples, seconds, seed, threads, resolution, crop_window;
   CLI::App app;
   app.set_help_flag();  // help and version are ours
   app.add_option("SCENE", a.file);
   app.add_option("-o,--output", a.outputs)->allow_extra_args(false);
   app.add_option("--spp", samples);
+  app.add_option("--time", seconds);
   app.add_option("--seed", seed);
   app.add_option("--nthreads", threads);
   app.add_option("--resolution", resolution);
+  app.add_option("--cropwindow", crop_window);
   app.add_option("--integrator", a.changes.integrator);
   app.add_option("--grid", a.grid);
   app.add_option("--write-scene", a.write_scene);
   app.add_flag("--example", a.example);
+  app.add_flag("--write-partial-images", a.partial_images);
   app.add_flag("--variance", a.variance);
   app.add_flag("--quiet", a.quiet);
   app.add_flag("--version", a.version);
@@ -80,9 +105,11 @@ Arguments parse_arguments(const std::vector<std::string>& given) {
   if (a.help || a.version) return a;
 
   if (!samples.empty()) a.changes.samples_per_pixel = static_cast<int>(parse_number("--spp", samples, 1, 1 << 24));
+  if (!seconds.empty()) a.seconds = parse_seconds("--time", seconds);
   if (!seed.empty()) a.changes.seed = static_cast<std::uint32_t>(parse_number("--seed", seed, 0, 0xffffffff));
   if (!threads.empty()) a.threads = static_cast<int>(parse_number("--nthreads", threads, 0, 4096));
   if (!resolution.empty()) parse_resolution(resolution, a.changes);
+  if (!crop_window.empty()) a.changes.crop_window = parse_crop_window(crop_window);
   if (a.file.empty() && !a.example)
     throw UsageError("a scene or a volume to render is missing; brume --help shows how");
   if (!a.file.empty() && a.example) throw UsageError("--example takes no scene or volume");
@@ -115,21 +142,36 @@ void check_outputs(const Arguments& a, const std::vector<std::string>& outputs) 
 }
 
 // The picture, or nothing where the render was stopped before it began.
-std::optional<brume::Picture> render(const Arguments& a, const brume::Scene& scene) {
+std::optional<brume::Picture> render(const Arguments& a, const brume::Scene& scene,
+                                     const std::vector<std::string>& outputs) {
   double reached = 0;
   ProgressLine line(a.quiet);
-  brume::RenderOptions options;
-  options.threads = a.threads;
-  options.variance = a.variance;
-  options.on_warning = [&](const std::string& warning) {
+  const auto warn = [&](const std::string& warning) {
     line.clear();
     say(a, warning);
   };
+  brume::RenderOptions options;
+  options.threads = a.threads;
+  options.variance = a.variance;
+  options.seconds = a.seconds;
+  options.max_samples = a.changes.samples_per_pixel.value_or(options.max_samples);
+  options.on_warning = warn;
   options.on_progress = [&](const brume::Progress& progress) {
     reached = progress.fraction;
     line.show(progress);
     return !interrupted();
   };
+  bool can_write = true;
+  if (a.partial_images)
+    options.on_partial_picture = [&](const brume::Picture& picture) {
+      // What cannot be written now may be at the end: no reason to give up a long render.
+      try {
+        for (const std::string& output : outputs) picture.write(output);
+      } catch (const brume::Error& e) {
+        if (can_write) warn(e.what());
+        can_write = false;
+      }
+    };
   brume::Picture picture = brume::render(scene, options);
   if (picture.partial && reached == 0) return std::nullopt;
   return picture;
@@ -164,7 +206,7 @@ int render_command(const std::vector<std::string>& arguments) {
   }
   const std::vector<std::string> outputs = a.outputs.empty() ? std::vector{scene.output_filename()} : a.outputs;
   check_outputs(a, outputs);
-  const std::optional<brume::Picture> picture = render(a, scene);
+  const std::optional<brume::Picture> picture = render(a, scene, outputs);
   if (interrupted()) say(a, picture ? "interrupted: saving what is rendered" : "interrupted: nothing was rendered yet");
   return picture ? save(a, *picture, outputs) : exit_interrupted;
 }

@@ -5,6 +5,7 @@
 //   brume::render(scene).write("smoke.exr");
 #pragma once
 
+#include "brume/bench.h"
 #include "brume/compare.h"
 #include "brume/render.h"
 #include "brume/scene.h"

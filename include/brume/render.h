@@ -17,13 +17,23 @@ struct Progress {
   double remaining_seconds = -1;  // below 0: not known yet
 };
 
+struct Picture;
+
 struct RenderOptions {
   int threads = 0;        // 0: one per core
   bool variance = false;  // estimate the picture's variance too, which takes two samples per pixel at least
+  // Above 0: in place of the scene's number of samples per pixel, as many as fit in this time from the call on, at
+  // least one and at most max_samples. All pixels get the same number, and the picture is the one that this number
+  // gives without a time.
+  double seconds = 0;
+  int max_samples = 1 << 24;
   // Called now and then from the thread that called render; false stops the render early.
   std::function<bool(const Progress&)> on_progress;
   // Called from the same thread with each warning, ready to be shown, as soon as it is known.
   std::function<void(const std::string&)> on_warning;
+  // Called from the same thread with the picture so far, marked partial: once each pixel has a sample, then every few
+  // seconds, or as soon afterwards as all pixels have the same number again.
+  std::function<void(const Picture&)> on_partial_picture;
 };
 
 // A picture with what its file says of it.
@@ -34,7 +44,7 @@ struct Picture {
   // independent (sampler "independent"); NaN where a pixel has fewer than two samples. Empty unless asked for.
   std::vector<float> variance;
   int samples_per_pixel = 0;  // as rendered; of a partial picture, what every pixel has at least
-  bool partial = false;       // stopped early
+  bool partial = false;       // not all of the samples asked for
   double seconds = 0;
   std::int64_t invalid_samples = 0;  // samples that were not finite and were left out
   std::vector<std::string> warnings;

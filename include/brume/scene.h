@@ -1,6 +1,7 @@
 // Scenes: from a .pbrt file, from a volume file alone, or the built-in example.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -21,6 +22,9 @@ class Error : public std::runtime_error {
 struct SceneOptions {
   std::optional<int> width, height;      // pixels, 1 to 65536, together at most 2^28
   std::optional<int> samples_per_pixel;  // 1 to 2^24
+  // x0 x1 y0 y1, fractions of the picture with y from the top, 0 <= x0 < x1 <= 1: only the pixels whose upper left
+  // corners lie in it are rendered, with the values that they have in the whole picture.
+  std::optional<std::array<double, 4>> crop_window;
   std::optional<std::uint32_t> seed;
   std::optional<std::string> integrator;
 };

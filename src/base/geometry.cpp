@@ -23,9 +23,12 @@ Vector3 Transform::vector(Vector3 v) const {
 }
 
 Vector3 Transform::normal(Vector3 n) const {
-  const Transform i = inverse(*this);
-  return {i.m[0][0] * n.x + i.m[1][0] * n.y + i.m[2][0] * n.z, i.m[0][1] * n.x + i.m[1][1] * n.y + i.m[2][1] * n.z,
-          i.m[0][2] * n.x + i.m[1][2] * n.y + i.m[2][2] * n.z};
+  return transposed(inverse(*this), n);
+}
+
+Vector3 transposed(const Transform& t, Vector3 v) {
+  return {t.m[0][0] * v.x + t.m[1][0] * v.y + t.m[2][0] * v.z, t.m[0][1] * v.x + t.m[1][1] * v.y + t.m[2][1] * v.z,
+          t.m[0][2] * v.x + t.m[1][2] * v.y + t.m[2][2] * v.z};
 }
 
 double Transform::determinant() const {

@@ -50,6 +50,8 @@ struct Transform {
   bool operator==(const Transform&) const = default;
 };
 Transform operator*(const Transform& a, const Transform& b);
+// The transpose of the 3 x 3 part times v: with the inverse map given, v's image as a normal.
+Vector3 transposed(const Transform& t, Vector3 v);
 // The inverse; of a singular map, a matrix of NaN (readers reject singular transforms).
 Transform inverse(const Transform& t);
 Transform translate(Vector3 d);

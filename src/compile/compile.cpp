@@ -14,6 +14,7 @@ CompiledScene compile(const SceneDescription& scene, int threads, std::vector<Di
 CompiledScene Compiler::run(std::vector<Diagnostic>& warnings) {
   compiled_.width = scene_.film.width;
   compiled_.height = scene_.film.height;
+  compiled_.crop = cropped_pixels(scene_.film);
   compiled_.samples_per_pixel = scene_.sampler.pixel_samples;
   compiled_.seed = scene_.sampler.seed;
   compiled_.sampler =
@@ -23,6 +24,8 @@ CompiledScene Compiler::run(std::vector<Diagnostic>& warnings) {
   add_integrator();
   add_lights();
   for (const ShapeDescription& shape : scene_.shapes) add_shape(shape);
+  boxes_to_volumes();
+  add_light_choice();
   if (!errors_.empty()) throw InputError(std::move(errors_));
   warnings.insert(warnings.end(), warnings_.begin(), warnings_.end());
   return std::move(compiled_);
@@ -51,7 +54,9 @@ void Compiler::add_camera() {
 void Compiler::add_integrator() {
   const IntegratorDescription& from = scene_.integrator;
   CompiledIntegrator& to = compiled_.integrator;
-  to.kind = from.name == "classic" ? CompiledIntegrator::Kind::classic : CompiledIntegrator::Kind::reference;
+  to.kind = from.name == "classic"     ? CompiledIntegrator::Kind::classic
+            : from.name == "reference" ? CompiledIntegrator::Kind::reference
+                                       : CompiledIntegrator::Kind::volpath;
   to.max_depth = from.max_depth;
   to.dda = from.traversal == Traversal::dda;
   to.step = from.step;
@@ -68,25 +73,6 @@ void Compiler::add_integrator() {
       return place(0.5f, 0);
     case Placement::middle_random:
       return place(0.25f, 0.5f);
-  }
-}
-
-void Compiler::add_lights() {
-  for (const LightDescription& light : scene_.lights) {
-    CompiledLight c;
-    if (const auto* point = std::get_if<PointLight>(&light.kind)) {
-      c.kind = CompiledLight::Kind::point;
-      c.position = point->from;
-      c.value = point->intensity;
-    } else if (const auto* distant = std::get_if<DistantLight>(&light.kind)) {
-      c.kind = CompiledLight::Kind::distant;
-      c.direction_to = distant->direction_to_light;
-      c.value = distant->radiance;
-    } else {
-      c.kind = CompiledLight::Kind::infinite;
-      c.value = std::get<InfiniteLight>(light.kind).radiance;
-    }
-    compiled_.lights.push_back(c);
   }
 }
 

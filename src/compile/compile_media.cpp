@@ -4,6 +4,7 @@
 
 #include "compile/compiler.h"
 #include "kernel/phase_table.h"
+#include "volume/majorant_cells.h"
 #include "volume/procedural.h"
 #include "volume/read_volume.h"
 
@@ -39,7 +40,11 @@ VolumeGrid load_grid(const MediumDescription& medium, int threads) {
   return load_uniform_grid(std::get<UniformGridMedium>(medium.kind), storage);
 }
 
-CompiledGrid compile_grid(VolumeGrid grid, bool linear) {
+// Small enough to stay in the cache of a core.
+constexpr std::size_t majorant_bytes = 64 * 1024;
+constexpr int finest_majorant_edge = 4;  // voxels
+
+CompiledGrid compile_grid(VolumeGrid grid, bool linear, int threads) {
   const Box3 support = support_index(grid, linear);
   CompiledGrid c;
   c.table_x = static_cast<std::uint32_t>(grid.bricks.bricks[0] + 2);
@@ -50,6 +55,11 @@ CompiledGrid compile_grid(VolumeGrid grid, bool linear) {
     c.bounds_lo[static_cast<std::size_t>(axis)] = static_cast<float>(support.lo[axis]);
     c.bounds_hi[static_cast<std::size_t>(axis)] = static_cast<float>(support.hi[axis]);
   }
+  MajorantCells majorants = make_majorants(grid.bricks, finest_majorant_edge, majorant_bytes, threads);
+  c.majorant_row = static_cast<std::uint32_t>(majorants.size[0]);
+  c.majorant_layer = c.majorant_row * static_cast<std::uint32_t>(majorants.size[1]);
+  c.majorant_cells_per_voxel = 1 / static_cast<float>(majorants.edge);
+  c.majorants = std::move(majorants.cells);
   c.table = std::move(grid.bricks.table);
   c.words = std::move(grid.bricks.words);
   return c;
@@ -94,7 +104,7 @@ int Compiler::grid_index(const MediumDescription& medium, CompiledMedium& compil
     try {
       VolumeGrid grid = load_grid(medium, threads_);
       const LoadedGrid loaded{static_cast<int>(compiled_.grids.size()), grid.medium_from_index};
-      compiled_.grids.push_back(compile_grid(std::move(grid), medium.linear_interpolation));
+      compiled_.grids.push_back(compile_grid(std::move(grid), medium.linear_interpolation, threads_));
       known = grids_.emplace(key, loaded).first;
     } catch (const InputError& e) {
       for (const Diagnostic& d : e.diagnostics())

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numbers>
 
 #include "compile/compiler.h"
 
@@ -10,6 +11,11 @@ std::array<float, 3> to_float(Vector3 v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
+// Fresnel's equations at normal incidence.
+float normal_reflectance(float eta, float k) {
+  return ((eta - 1) * (eta - 1) + k * k) / ((eta + 1) * (eta + 1) + k * k);
+}
+
 CompiledMaterial compile_material(const MaterialDescription& material) {
   CompiledMaterial c;
   if (const auto* diffuse = std::get_if<DiffuseMaterial>(&material)) {
@@ -19,8 +25,44 @@ CompiledMaterial compile_material(const MaterialDescription& material) {
     c.specular = phong->specular;
     c.mirror = phong->reflection;
     c.shininess = phong->shininess;
+  } else if (const auto* conductor = std::get_if<ConductorMaterial>(&material)) {
+    c.kind = CompiledMaterial::Kind::conductor;
+    c.eta = conductor->eta;
+    c.k = conductor->k;
+    for (int i = 0; i < channel_count; ++i) c.mirror[i] = normal_reflectance(c.eta[i], c.k[i]);
+  } else if (const auto* dielectric = std::get_if<DielectricMaterial>(&material)) {
+    c.kind = CompiledMaterial::Kind::dielectric;
+    c.refractive_index = dielectric->eta;
+    c.mirror = constant_spectrum(normal_reflectance(dielectric->eta, 0));
   }
   return c;
+}
+
+// The unit sphere, disk or cylinder (see CompiledQuadric) that the shape is, and the map that makes it the shape.
+bool compile_quadric(const ShapeDescription& shape, CompiledQuadric& c) {
+  Transform object_from_unit;
+  double phi_max = 360;
+  if (const auto* sphere = std::get_if<SphereShape>(&shape.kind)) {
+    c.kind = CompiledQuadric::Kind::sphere;
+    object_from_unit = scale({sphere->radius, sphere->radius, sphere->radius});
+  } else if (const auto* disk = std::get_if<DiskShape>(&shape.kind)) {
+    c.kind = CompiledQuadric::Kind::disk;
+    object_from_unit = translate({0, 0, disk->height}) * scale({disk->radius, disk->radius, 1});
+    c.inner_radius = disk->inner_radius / disk->radius;
+    phi_max = disk->phi_max;
+  } else if (const auto* cylinder = std::get_if<CylinderShape>(&shape.kind)) {
+    c.kind = CompiledQuadric::Kind::cylinder;
+    object_from_unit = translate({0, 0, cylinder->z_min}) *
+                       scale({cylinder->radius, cylinder->radius, cylinder->z_max - cylinder->z_min});
+    phi_max = cylinder->phi_max;
+  } else {
+    return false;
+  }
+  c.phi_max = phi_max * std::numbers::pi / 180;
+  c.world_from_object = shape.world_from_object * object_from_unit;
+  c.object_from_world = inverse(c.world_from_object);
+  c.flip_normal = shape.reverse_orientation != (shape.world_from_object.determinant() < 0);
+  return true;
 }
 
 }  // namespace
@@ -34,7 +76,7 @@ void Compiler::add_shape(const ShapeDescription& shape) {
     else if (inside != no_medium && compiled_.media[static_cast<std::size_t>(inside)].grid < 0 && errors_.empty())
       error(shape.location, "Shape \"volume\" needs a medium with bounds; \"" + shape.inside + "\" is homogeneous");
     else if (inside != no_medium)
-      compiled_.free_volumes.push_back(inside);
+      add_volume(inside);
     return;
   }
   CompiledShape compiled;
@@ -45,19 +87,16 @@ void Compiler::add_shape(const ShapeDescription& shape) {
   }
   if (compiled.material < 0 && compiled.boundary < 0) return;  // nothing to see or to enter
   add_geometry(shape, compiled);
+  if (shape.light && compiled.material >= 0) compiled.light = add_area_light(*shape.light, compiled);
   compiled_.shapes.push_back(compiled);
 }
 
 void Compiler::add_geometry(const ShapeDescription& shape, CompiledShape& compiled) {
   compiled.kind = CompiledShape::Kind::mesh;
-  if (const auto* sphere = std::get_if<SphereShape>(&shape.kind)) {
-    CompiledSphere c;
-    c.world_from_object = shape.world_from_object * scale({sphere->radius, sphere->radius, sphere->radius});
-    c.object_from_world = inverse(c.world_from_object);
-    c.flip_normal = shape.reverse_orientation != (shape.world_from_object.determinant() < 0);
-    compiled.kind = CompiledShape::Kind::sphere;
-    compiled.index = static_cast<std::uint32_t>(compiled_.spheres.size());
-    compiled_.spheres.push_back(c);
+  if (CompiledQuadric quadric; compile_quadric(shape, quadric)) {
+    compiled.kind = CompiledShape::Kind::quadric;
+    compiled.index = static_cast<std::uint32_t>(compiled_.quadrics.size());
+    compiled_.quadrics.push_back(quadric);
   } else if (const auto* mesh = std::get_if<TriangleMeshShape>(&shape.kind)) {
     compiled.index = add_mesh(shape, mesh->positions, mesh->triangles, mesh->normals);
   } else {

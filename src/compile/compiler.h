@@ -21,12 +21,24 @@ class Compiler {
   void add_camera();
   void add_integrator();
   void add_lights();
+  void add_infinite_light(const LightDescription& light);
+  bool read_environment(const std::string& filename, const Location& location, CompiledEnvironment& environment);
+  // The index of the shape's light, whose geometry is there already.
+  std::int32_t add_area_light(const AreaLight& light, const CompiledShape& shape);
+  // Fills in with which chance each light is chosen.
+  void add_light_choice();
+  double scene_radius() const;
 
   // The index of the medium called `name` in the compiled scene, which is added on first use; no_medium for "" and for
   // names that are not defined (an error).
   std::int32_t medium_index(const std::string& name, const Location& used_at);
   CompiledMedium make_medium(const MediumDescription& medium);
   int grid_index(const MediumDescription& medium, CompiledMedium& compiled);
+
+  // The medium fills the bounds of its grid.
+  void add_volume(std::int32_t medium);
+  // Turns shapes that are boxes around a medium, and nothing else, into volumes.
+  void boxes_to_volumes();
 
   void add_shape(const ShapeDescription& shape);
   void add_geometry(const ShapeDescription& shape, CompiledShape& compiled);
@@ -42,6 +54,12 @@ class Compiler {
   CompiledScene compiled_;
   std::vector<Diagnostic> errors_, warnings_;
   std::map<std::string, std::int32_t> media_;  // by name
+  std::vector<double> mean_brightness_;        // of the environments
+  struct LightArea {
+    std::size_t light;
+    double area;  // in the world
+  };
+  std::vector<LightArea> light_areas_;  // of the area lights
   struct LoadedGrid {
     int index;
     Transform medium_from_index;

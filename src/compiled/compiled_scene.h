@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/geometry.h"
+#include "base/pixel_box.h"
 #include "base/pixel_filter.h"
 #include "base/spectrum.h"
 #include "kernel/scalar.h"
@@ -23,8 +24,15 @@ struct CompiledGrid {
   std::vector<std::uint32_t> table, words;
   std::uint32_t table_x = 0, table_xy = 0, bits = 16;
   float max_density = 0;                          // bounds every value, rounding included
+  // Local bounds (see kernel/majorant.inl).
+  std::vector<std::uint32_t> majorants;
+  std::uint32_t majorant_row = 0, majorant_layer = 0;
+  float majorant_cells_per_voxel = 0;
   std::array<float, 3> bounds_lo{}, bounds_hi{};  // index coordinates; the density is 0 outside
   kernel::BrickGrid view() const { return {table.data(), words.data(), table_x, table_xy, bits}; }
+  kernel::MajorantGrid majorant_view() const {
+    return {majorants.data(), majorant_row, majorant_layer, majorant_cells_per_voxel};
+  }
 };
 
 // Coefficients, phase function, and the density's grid with its placement; homogeneous where grid is below 0.
@@ -39,10 +47,23 @@ struct CompiledMedium {
   double default_step = 0;  // world units, half the smallest edge of a voxel; 0 for homogeneous media
 };
 
-// Diffuse and Blinn-Phong in one: f = diffuse / pi + specular (s + 8) / (8 pi) (n.h)^s, and a mirror.
+// A medium that fills a box: lo <= p <= hi in the coordinates of box_from_world, which for a grid are its index
+// coordinates, and the box lies within the grid's bounds.
+struct CompiledVolume {
+  std::int32_t medium = no_medium;
+  Transform box_from_world;
+  std::array<float, 3> lo{}, hi{};
+};
+
+// A surface. blinn_phong: f = diffuse / pi + specular (s + 8) / (8 pi) (n.h)^s, and a mirror. conductor and dielectric
+// are smooth and reflect by Fresnel's equations; their `mirror` is the reflectance at normal incidence, for integrators
+// that know no better.
 struct CompiledMaterial {
+  enum class Kind { blinn_phong, conductor, dielectric } kind = Kind::blinn_phong;
   Spectrum diffuse, specular, mirror;
   float shininess = 1;
+  Spectrum eta, k;              // conductor: complex index of refraction
+  float refractive_index = 1;  // dielectric: inside over outside
   bool operator==(const CompiledMaterial&) const = default;
 };
 
@@ -59,26 +80,53 @@ struct CompiledMesh {
   bool flip_normal = false;  // the geometric normal is the negative of (p1 - p0) x (p2 - p0)
 };
 
-// A unit sphere under an affine map.
-struct CompiledSphere {
+// A part of a unit sphere, disk or cylinder under an affine map. The disk lies at z = 0 and faces +z, the cylinder stands
+// on it and reaches to z = 1.
+struct CompiledQuadric {
+  enum class Kind { sphere, disk, cylinder } kind = Kind::sphere;
   Transform object_from_world;
   Transform world_from_object;
+  double inner_radius = 0;  // disk: of its hole
+  double phi_max = 0;       // disk, cylinder: radians from the x axis; spheres are whole
   bool flip_normal = false;
 };
 
 // What a shape is, apart from its geometry.
 struct CompiledShape {
-  enum class Kind { mesh, sphere } kind = Kind::mesh;
-  std::uint32_t index = 0;     // in meshes or spheres
+  enum class Kind { mesh, quadric } kind = Kind::mesh;
+  std::uint32_t index = 0;     // in meshes or quadrics
   std::int32_t material = -1;  // below 0: no surface
   std::int32_t boundary = -1;  // below 0: the same media on both sides
+  std::int32_t light = -1;     // the area light that it is; below 0: none
 };
 
 struct CompiledLight {
-  enum class Kind { point, distant, infinite } kind = Kind::point;
+  enum class Kind { point, distant, infinite, image, area } kind = Kind::point;
   Vector3 position;      // point
   Vector3 direction_to;  // distant: unit, towards the light
-  Spectrum value;        // point: intensity; distant: irradiance of a facing surface; infinite: radiance
+  Spectrum value;        // point: intensity; distant: irradiance of a facing surface; infinite and area: radiance;
+                         // image: a factor
+  float chance = 0;      // with which it is chosen among all lights (see light_cdf)
+  std::int32_t environment = -1;  // image: in environments
+
+  // Area: its shape, as CompiledShape has it, and its area, which for a quadric is that before the affine map.
+  CompiledShape::Kind shape_kind = CompiledShape::Kind::mesh;
+  std::uint32_t shape_index = 0;
+  bool two_sided = false;
+  float area = 0;
+  std::uint32_t first_triangle_cdf = 0;  // mesh: in triangle_cdfs
+};
+
+// An image around the scene, constant in each of its pixels, and a table to draw pixels in proportion to luminance times
+// solid angle. Row i holds the pixels [i width, (i + 1) width); cumulative chances begin with 0 and end with 1.
+struct CompiledEnvironment {
+  enum class Projection { equal_area, equirectangular } projection = Projection::equal_area;
+  std::uint32_t width = 0, height = 0;
+  Transform light_from_world, world_from_light;  // rotations, mirroring allowed
+  std::vector<float> pixels;                     // 3 a pixel
+  std::vector<float> pixel_solid_angle;          // by row
+  std::vector<float> row_cdf;                    // height + 1
+  std::vector<float> pixel_cdf;                  // width + 1 a row
 };
 
 struct CompiledCamera {
@@ -91,7 +139,7 @@ struct CompiledCamera {
 enum class SamplerKind { independent, zsobol };
 
 struct CompiledIntegrator {
-  enum class Kind { classic, reference } kind = Kind::classic;
+  enum class Kind { classic, reference, volpath } kind = Kind::classic;
   int max_depth = 5;
   bool dda = false;
   float placement_base = 0.5f, placement_spread = 0;  // see kernel/march.inl
@@ -99,7 +147,8 @@ struct CompiledIntegrator {
 };
 
 struct CompiledScene {
-  int width = 0, height = 0;
+  int width = 0, height = 0;  // of the whole picture
+  PixelBox crop;              // the pixels of it that are rendered: the film's
   int samples_per_pixel = 16;
   std::uint32_t seed = 0;
   SamplerKind sampler = SamplerKind::independent;
@@ -109,17 +158,20 @@ struct CompiledScene {
 
   std::vector<CompiledGrid> grids;
   std::vector<CompiledMedium> media;
-  std::vector<std::int32_t> free_volumes;  // media that fill their grid's bounds, without a shape
+  std::vector<CompiledVolume> volumes;
   std::int32_t camera_medium = no_medium;  // as the Camera directive records it
 
   std::vector<std::array<float, 3>> positions, normals;  // normals are parallel to positions where any mesh has them
   std::vector<std::array<std::uint32_t, 3>> triangles;   // relative to the mesh's first vertex
   std::vector<CompiledMesh> meshes;
-  std::vector<CompiledSphere> spheres;
+  std::vector<CompiledQuadric> quadrics;
   std::vector<CompiledShape> shapes;
   std::vector<CompiledBoundary> boundaries;
   std::vector<CompiledMaterial> materials;
   std::vector<CompiledLight> lights;
+  std::vector<float> light_cdf;      // cumulative chances of lights, without the leading 0
+  std::vector<float> triangle_cdfs;  // cumulative shares of area of the triangles of mesh lights, likewise
+  std::vector<CompiledEnvironment> environments;
 };
 
 }  // namespace brume

@@ -25,7 +25,10 @@ struct ImageMetadata {
   // EXR worldToNDC, a projective matrix for columns: x, y in [0, 1] across the picture, y down, after division by w.
   std::array<std::array<double, 4>, 4> ndc_from_world{};
   std::uint32_t seed = 0;
-  bool partial = false;  // the render was interrupted
+  // EXR only, of a picture that is a part of a larger one (dataWindow within displayWindow): the place of its first
+  // pixel, and the size of the whole; 0: it is whole.
+  int x = 0, y = 0, whole_width = 0, whole_height = 0;
+  bool partial = false;  // not all of the samples asked for
   bool half = true;      // EXR only: 16-bit floats
   std::string software;
 };

@@ -87,6 +87,13 @@ ImageMetadata decode_exr_metadata(std::string_view bytes) {
   find<Imf::StringAttribute>(header, "software", metadata.software);
   find_matrix(header, "worldToCamera", metadata.camera_from_world.m);
   find_matrix(header, "worldToNDC", metadata.ndc_from_world);
+  const Imath::Box2i whole = header.displayWindow(), window = header.dataWindow();
+  if (whole != window) {
+    metadata.x = window.min.x - whole.min.x;
+    metadata.y = window.min.y - whole.min.y;
+    metadata.whole_width = whole.max.x - whole.min.x + 1;
+    metadata.whole_height = whole.max.y - whole.min.y + 1;
+  }
   std::string seed;
   find<Imf::StringAttribute>(header, "seed", seed);
   std::from_chars(seed.data(), seed.data() + seed.size(), metadata.seed);

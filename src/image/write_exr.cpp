@@ -1,4 +1,5 @@
 // OpenEXR: scanlines, channels R, G and B, and the layer Variance where the image has it, ZIP.
+#include <ImathBox.h>
 #include <ImathMatrix.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFloatAttribute.h>
@@ -47,7 +48,11 @@ Imath::M44f row_vector_matrix(const std::array<std::array<double, 4>, 4>& m) {
 }
 
 Imf::Header make_header(const Image& image, const ImageMetadata& metadata) {
-  Imf::Header header(image.width, image.height);
+  const Imath::V2i first(metadata.x, metadata.y);
+  const Imath::Box2i data_window(first, first + Imath::V2i(image.width - 1, image.height - 1));
+  const bool is_part = metadata.whole_width > 0;
+  Imf::Header header(
+      is_part ? Imath::Box2i({0, 0}, {metadata.whole_width - 1, metadata.whole_height - 1}) : data_window, data_window);
   header.compression() = Imf::ZIP_COMPRESSION;
   for (const char* channel : colour_channels)
     header.channels().insert(channel, Imf::Channel(metadata.half ? Imf::HALF : Imf::FLOAT));
@@ -65,11 +70,12 @@ Imf::Header make_header(const Image& image, const ImageMetadata& metadata) {
 }
 
 template <class Value>
-void insert(Imf::FrameBuffer& frame, const ChannelNames& names, Imf::PixelType type, const Value* values, int width) {
-  const std::size_t x_stride = 3 * sizeof(Value), y_stride = x_stride * static_cast<std::size_t>(width);
-  for (const char* name : names)  // OpenEXR asks for a pointer to what it could change, and only reads
-    frame.insert(name,
-                 Imf::Slice(type, const_cast<char*>(reinterpret_cast<const char*>(values++)), x_stride, y_stride));
+void insert(Imf::FrameBuffer& frame, const Imf::Header& header, const ChannelNames& names, Imf::PixelType type,
+            const Value* values) {
+  const Imath::Box2i window = header.dataWindow();
+  const auto width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
+  for (const char* name : names)
+    frame.insert(name, Imf::Slice::Make(type, values++, window, 3 * sizeof(Value), 3 * sizeof(Value) * width));
 }
 
 // 65504 is the largest finite half.
@@ -86,11 +92,11 @@ std::string encode_exr(const Image& image, const ImageMetadata& metadata) {
     if (metadata.half) {
       halves.resize(image.pixels.size());
       std::transform(image.pixels.begin(), image.pixels.end(), halves.begin(), to_half);
-      insert(frame, colour_channels, Imf::HALF, halves.data(), image.width);
+      insert(frame, file.header(), colour_channels, Imf::HALF, halves.data());
     } else {
-      insert(frame, colour_channels, Imf::FLOAT, image.pixels.data(), image.width);
+      insert(frame, file.header(), colour_channels, Imf::FLOAT, image.pixels.data());
     }
-    if (!image.variance.empty()) insert(frame, variance_channels, Imf::FLOAT, image.variance.data(), image.width);
+    if (!image.variance.empty()) insert(frame, file.header(), variance_channels, Imf::FLOAT, image.variance.data());
     file.setFrameBuffer(frame);
     file.writePixels(image.height);
   }  // the destructor writes the table of offsets

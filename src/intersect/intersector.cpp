@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "intersect/quadric.h"
+
 namespace brume {
 
 using kernel::vec3;
@@ -18,8 +20,6 @@ namespace {
 constexpr int packet_size = 16;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-vec3 to_float(Vector3 v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
-
 // What a boundary query carries through Embree to the callbacks that collect its crossings.
 struct CrossingContext {
   RTCIntersectContext embree;  // first, so that a pointer to it is a pointer to this
@@ -27,54 +27,33 @@ struct CrossingContext {
   int first_ray;
 };
 
-// A sphere for Embree: one user geometry of one primitive.
-struct SphereGeometry {
-  const CompiledSphere* sphere;
+// A quadric for Embree: one user geometry of one primitive.
+struct QuadricGeometry {
+  const CompiledQuadric* quadric;
   int shape;
   bool is_boundary;
 };
 
-// The two t's at which origin + t direction meets the unit sphere of object space; false where it misses.
-bool sphere_roots(const CompiledSphere& sphere, Vector3 origin, Vector3 direction, double& t0, double& t1) {
-  const Vector3 o = sphere.object_from_world.point(origin), d = sphere.object_from_world.vector(direction);
-  const double dd = dot(d, d), b = dot(o, d) / dd;
-  const Vector3 nearest = o - b * d;  // the point of the line that is nearest to the centre
-  const double h = 1 - dot(nearest, nearest);
-  if (!(h >= 0)) return false;
-  const double half_chord = std::sqrt(h / dd);
-  t0 = -b - half_chord;
-  t1 = -b + half_chord;
-  return true;
-}
-
-// The outward unit normal at a point of the sphere.
-vec3 sphere_normal(const CompiledSphere& sphere, Vector3 p_world) {
-  const Vector3 p = sphere.object_from_world.point(p_world);
-  const Vector3 n = normalize(sphere.world_from_object.normal(p));
-  return to_float(sphere.flip_normal ? -n : n);
-}
-
-void sphere_bounds(const RTCBoundsFunctionArguments* args) {
-  const auto& m = static_cast<const SphereGeometry*>(args->geometryUserPtr)->sphere->world_from_object.m;
+void quadric_geometry_bounds(const RTCBoundsFunctionArguments* args) {
+  const Box3 box = quadric_bounds(*static_cast<const QuadricGeometry*>(args->geometryUserPtr)->quadric);
   float* lo = &args->bounds_o->lower_x;
   float* hi = &args->bounds_o->upper_x;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double extent = std::hypot(m[axis][0], m[axis][1], m[axis][2]),
-                 margin = 1e-5 * (extent + std::abs(m[axis][3]));
-    lo[axis] = static_cast<float>(m[axis][3] - extent - margin);
-    hi[axis] = static_cast<float>(m[axis][3] + extent + margin);
+  for (int axis = 0; axis < 3; ++axis) {
+    lo[axis] = static_cast<float>(box.lo[axis]);
+    hi[axis] = static_cast<float>(box.hi[axis]);
   }
 }
 
-// Calls visit(lane, t0, t1) for the rays of a packet that meet the sphere.
+// Calls visit(lane, hit) for the hits of the rays of a packet, nearest first, also those behind their origins.
 template <class Visit>
-void for_lanes(const int* valid, unsigned n, RTCRayN* rays, const SphereGeometry& geometry, Visit visit) {
+void for_hits(const int* valid, unsigned n, RTCRayN* rays, const QuadricGeometry& geometry, Visit visit) {
   for (unsigned i = 0; i < n; ++i) {
     if (valid[i] != -1) continue;
     const Vector3 o{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)};
     const Vector3 d{RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)};
-    double t0 = 0, t1 = 0;
-    if (sphere_roots(*geometry.sphere, o, d, t0, t1)) visit(i, t0, t1);
+    std::array<QuadricHit, 2> hits;
+    const int count = quadric_hits(*geometry.quadric, o, d, hits);
+    for (int k = 0; k < count; ++k) visit(i, hits[static_cast<std::size_t>(k)]);
   }
 }
 
@@ -82,23 +61,19 @@ void add_crossing(CrossingContext& context, unsigned lane, float t, int shape, b
   context.found->push_back({context.first_ray + static_cast<int>(lane), t, shape, inwards});
 }
 
-void sphere_intersect(const RTCIntersectFunctionNArguments* args) {
-  const auto& geometry = *static_cast<const SphereGeometry*>(args->geometryUserPtr);
+void quadric_intersect(const RTCIntersectFunctionNArguments* args) {
+  const auto& geometry = *static_cast<const QuadricGeometry*>(args->geometryUserPtr);
   const unsigned n = args->N;
   RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, n);
   RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, n);
-  for_lanes(args->valid, n, rays, geometry, [&](unsigned i, double t0, double t1) {
+  for_hits(args->valid, n, rays, geometry, [&](unsigned i, QuadricHit hit) {
+    const auto t = static_cast<float>(hit.t);
     if (geometry.is_boundary) {
       auto& context = *reinterpret_cast<CrossingContext*>(args->context);
-      const unsigned lane = RTCRayN_id(rays, n, i);
-      if (t0 > 0) add_crossing(context, lane, static_cast<float>(t0), geometry.shape, !geometry.sphere->flip_normal);
-      if (t1 > 0) add_crossing(context, lane, static_cast<float>(t1), geometry.shape, geometry.sphere->flip_normal);
+      if (hit.t > 0) add_crossing(context, RTCRayN_id(rays, n, i), t, geometry.shape, hit.inwards);
       return;
     }
-    const float t_near = RTCRayN_tnear(rays, n, i), t_far = RTCRayN_tfar(rays, n, i);
-    const auto a = static_cast<float>(t0), b = static_cast<float>(t1);
-    const float t = a > t_near ? a : b;
-    if (!(t > t_near && t < t_far)) return;
+    if (!(t > RTCRayN_tnear(rays, n, i) && t < RTCRayN_tfar(rays, n, i))) return;
     RTCRayN_tfar(rays, n, i) = t;
     RTCHitN_geomID(hits, n, i) = static_cast<unsigned>(geometry.shape);
     RTCHitN_primID(hits, n, i) = 0;
@@ -106,12 +81,12 @@ void sphere_intersect(const RTCIntersectFunctionNArguments* args) {
   });
 }
 
-void sphere_occluded(const RTCOccludedFunctionNArguments* args) {
-  const auto& geometry = *static_cast<const SphereGeometry*>(args->geometryUserPtr);
-  for_lanes(args->valid, args->N, args->ray, geometry, [&](unsigned i, double t0, double t1) {
-    const float t_near = RTCRayN_tnear(args->ray, args->N, i), t_far = RTCRayN_tfar(args->ray, args->N, i);
-    const auto inside = [&](double t) { return static_cast<float>(t) > t_near && static_cast<float>(t) < t_far; };
-    if (inside(t0) || inside(t1)) RTCRayN_tfar(args->ray, args->N, i) = -infinity;
+void quadric_occluded(const RTCOccludedFunctionNArguments* args) {
+  const auto& geometry = *static_cast<const QuadricGeometry*>(args->geometryUserPtr);
+  for_hits(args->valid, args->N, args->ray, geometry, [&](unsigned i, QuadricHit hit) {
+    const auto t = static_cast<float>(hit.t);
+    if (t > RTCRayN_tnear(args->ray, args->N, i) && t < RTCRayN_tfar(args->ray, args->N, i))
+      RTCRayN_tfar(args->ray, args->N, i) = -infinity;
   });
 }
 
@@ -170,7 +145,7 @@ struct Intersector::Embree {
   RTCDevice device = nullptr;
   RTCScene surfaces = nullptr, boundaries = nullptr;
   int surface_count = 0, boundary_count = 0;
-  std::vector<std::unique_ptr<SphereGeometry>> spheres;
+  std::vector<std::unique_ptr<QuadricGeometry>> quadrics;
 
   explicit Embree(const CompiledScene& s) : scene(s) {
     device = rtcNewDevice("threads=1,set_affinity=0");
@@ -200,7 +175,7 @@ struct Intersector::Embree {
     const CompiledShape& shape = scene.shapes[static_cast<std::size_t>(shape_index)];
     RTCGeometry geometry = shape.kind == CompiledShape::Kind::mesh
                                ? mesh_geometry(scene.meshes[shape.index], is_boundary)
-                               : sphere_geometry(scene.spheres[shape.index], shape_index, is_boundary);
+                               : quadric_geometry(scene.quadrics[shape.index], shape_index, is_boundary);
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(rtc, geometry, static_cast<unsigned>(shape_index));
     rtcReleaseGeometry(geometry);
@@ -225,14 +200,14 @@ struct Intersector::Embree {
     return geometry;
   }
 
-  RTCGeometry sphere_geometry(const CompiledSphere& sphere, int shape_index, bool is_boundary) {
-    spheres.push_back(std::make_unique<SphereGeometry>(SphereGeometry{&sphere, shape_index, is_boundary}));
+  RTCGeometry quadric_geometry(const CompiledQuadric& quadric, int shape_index, bool is_boundary) {
+    quadrics.push_back(std::make_unique<QuadricGeometry>(QuadricGeometry{&quadric, shape_index, is_boundary}));
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryUserPrimitiveCount(geometry, 1);
-    rtcSetGeometryUserData(geometry, spheres.back().get());
-    rtcSetGeometryBoundsFunction(geometry, sphere_bounds, nullptr);
-    rtcSetGeometryIntersectFunction(geometry, sphere_intersect);
-    rtcSetGeometryOccludedFunction(geometry, sphere_occluded);
+    rtcSetGeometryUserData(geometry, quadrics.back().get());
+    rtcSetGeometryBoundsFunction(geometry, quadric_geometry_bounds, nullptr);
+    rtcSetGeometryIntersectFunction(geometry, quadric_intersect);
+    rtcSetGeometryOccludedFunction(geometry, quadric_occluded);
     return geometry;
   }
 
@@ -290,7 +265,7 @@ bool Intersector::nearest_surface(const Ray& ray, SurfaceHit& hit) const {
     embree_->mesh_normals(r.hit, embree_->scene.meshes[shape.index], hit);
   } else {
     const vec3 p = ray.at(hit.t);
-    hit.normal = hit.shading_normal = sphere_normal(embree_->scene.spheres[shape.index], {p.x, p.y, p.z});
+    hit.normal = hit.shading_normal = quadric_normal(embree_->scene.quadrics[shape.index], {p.x, p.y, p.z});
   }
   return true;
 }

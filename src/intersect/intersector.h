@@ -26,6 +26,7 @@ struct SurfaceHit {
   // Unit length. The geometric normal points out of the shape (ReverseOrientation included); the shading normal is on
   // its side.
   kernel::vec3 normal, shading_normal;
+  bool from_inside = false;  // the normals were turned, since the ray comes from the side that they point away from
 };
 
 // Where a ray passes the boundary of media.

@@ -63,5 +63,21 @@ KERNEL void sincos_turns(F u, INOUT(F) sine, INOUT(F) cosine) {
   cosine = select(((k + 1) & 2) == 2, -c_k, c_k);
 }
 
+// The angle whose tangent is x, in turns (of 2 pi), in (-1/4, 1/4): relative error below 3e-7. tan(a - pi/4) and
+// tan(a - pi/2) bring the tangent below tan(pi/8).
+// Source: Cephes' atanf.
+KERNEL F atan_turns(F x) {
+  F a = abs(x);
+  B large = a > 2.414213562373095f;
+  B middle = both(a > 0.4142135623730950f, negate(large));
+  F y = select(large, F(-1.0f) / max(a, F(1.0f)), select(middle, (a - 1.0f) / (a + 1.0f), a));
+  F z = y * y;
+  F p = fma(z, 8.05374449538e-2f, -1.38776856032e-1f);
+  p = fma(p, z, 1.99777106478e-1f);
+  p = fma(p, z, -3.33329491539e-1f);
+  F angle = fma(p * z, y, y) * 0.159154943091895f + select(large, F(0.25f), select(middle, F(0.125f), F(0.0f)));
+  return select(x < 0.0f, -angle, angle);
+}
+
 // x^y for x > 0, as e^(y ln x): relative error below 1.3e-7 (1 + |y ln x|), for |y ln x| < 87.
 KERNEL F pow_positive(F x, F y) { return exp_natural(y * log_natural(x)); }

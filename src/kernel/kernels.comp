@@ -7,7 +7,10 @@
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer WordsBuffer { uint words[]; };
 layout(std430, binding = 1) writeonly buffer ResultsBuffer { float results[]; };
-layout(push_constant) uniform Arguments { uint table, bricks, table_x, table_xy, bits; int phase_kind; } arguments;
+layout(push_constant) uniform Arguments {
+  uint table, bricks, table_x, table_xy, bits, majorants, majorant_row, majorant_layer;
+  int phase_kind;
+} arguments;
 
 #include "kernel/dialect.glsl"
 uint load_u32(uint array, uint index) { return words[array + index]; }
@@ -15,7 +18,7 @@ uint load_u32(uint array, int index) { return words[array + uint(index)]; }
 #include "kernel/all.inl"
 #include "kernel/phase_dispatch.glsl"
 
-const uint result_count = 20;
+const uint result_count = 24;
 
 void main() {
   uint id = gl_GlobalInvocationID.x;
@@ -62,4 +65,14 @@ void main() {
   sobol_pair(words[0], id & 63u, id >> 6, 16u, words[1], 0u, first, second);
   results[out_index + 18] = uniform_from_bits(first);
   results[out_index + 19] = uniform_from_bits(second);
+
+  results[out_index + 20] = atan_turns(tan(u[6]));
+  MajorantGrid majorants =
+      MajorantGrid(arguments.majorants, arguments.majorant_row, arguments.majorant_layer, 0.25);
+  MajorantWalk cells = majorant_start(majorants, origin * 8.0, direction);
+  majorant_step(cells);
+  results[out_index + 21] = majorant_cell_exit(cells);
+  results[out_index + 22] = majorant_at(majorants, cells.cell);
+  RandomWords r = random_words(words[0], id, 0u, 12u);
+  results[out_index + 23] = grid_stochastic(grid, origin * 8.0, r.x, r.y);
 }

@@ -17,10 +17,10 @@ class Backend {
   // Makes ready to render `scene`, which must outlive this.
   virtual void prepare(const CompiledScene& scene) = 0;
 
-  // Adds samples [first, last) of every pixel to `film` on `threads` threads. Calls keep_going(fraction of these
-  // samples done) now and then, on the calling thread; once it returns false the rest is left and this returns false
-  // (pixels then have different counts). The film's bits do not depend on the number of threads nor on how the samples
-  // are split into calls.
+  // Adds samples [first, last) of every pixel of the scene's crop to `film`, which has the crop's size, on `threads`
+  // threads. Calls keep_going(fraction of these samples done) now and then, on the calling thread; once it returns
+  // false the rest is left and this returns false (pixels then have different counts). The film's bits do not depend on
+  // the number of threads nor on how the samples are split into calls.
   virtual bool render(int first, int last, int threads, Film& film,
                       const std::function<bool(double fraction)>& keep_going) = 0;
 

@@ -35,7 +35,8 @@ Spectrum ClassicIntegrator::radiance(Ray ray, RandomStream& random) {
     Spectrum transmittance = constant_spectrum(1);
     result = result + throughput * cross_media(ray, scatters, random, transmittance);
     throughput = throughput * transmittance;
-    if (!is_hit) return result + throughput * background();
+    if (!is_hit) return result + throughput * background(ray.direction);
+    result = result + throughput * emitted_radiance(scene_, hit, ray.direction);
     if (!scatters || is_zero(throughput)) return result;
 
     hit = facing(hit, ray.direction);
@@ -213,7 +214,7 @@ Spectrum ClassicIntegrator::in_scattering(const Ray& ray, RandomStream& random) 
     light_samples_.clear();
     shadow_rays_.clear();
     for (const Point& point : points_) {
-      light_samples_.push_back(sample_light_from_point(light, point.position, random));
+      light_samples_.push_back(sample_light(scene_, light, point.position, nullptr, random));
       shadow_rays_.push_back(light_samples_.back().ray);
     }
     visibility_.find(shadow_rays_, random, arriving_);
@@ -239,7 +240,7 @@ Spectrum ClassicIntegrator::direct_light(const Ray& ray, const SurfaceHit& hit, 
   light_samples_.clear();
   shadow_rays_.clear();
   for (const CompiledLight& light : scene_.lights) {
-    const LightSample s = sample_light_from_surface(light, p, hit.shading_normal, random);
+    const LightSample s = sample_light(scene_, light, p, &hit.shading_normal, random);
     if (dot(s.ray.direction, hit.normal) <= 0 || dot(s.ray.direction, hit.shading_normal) <= 0) continue;
     light_samples_.push_back(s);
     shadow_rays_.push_back({start, s.ray.direction, s.ray.t_max});
@@ -253,10 +254,9 @@ Spectrum ClassicIntegrator::direct_light(const Ray& ray, const SurfaceHit& hit, 
   return result;
 }
 
-Spectrum ClassicIntegrator::background() const {
+Spectrum ClassicIntegrator::background(vec3 direction) const {
   Spectrum result;
-  for (const CompiledLight& light : scene_.lights)
-    if (light.kind == CompiledLight::Kind::infinite) result = result + light.value;
+  for (const CompiledLight& light : scene_.lights) result = result + environment_radiance(scene_, light, direction);
   return result;
 }
 

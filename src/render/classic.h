@@ -59,7 +59,7 @@ class ClassicIntegrator {
   bool chosen(std::size_t first);
   Spectrum in_scattering(const Ray& ray, RandomStream& random);
   Spectrum direct_light(const Ray& ray, const SurfaceHit& hit, RandomStream& random);
-  Spectrum background() const;
+  Spectrum background(kernel::vec3 direction) const;
 
   const CompiledScene& scene_;
   const Intersector& intersector_;

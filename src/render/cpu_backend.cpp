@@ -10,49 +10,66 @@
 #include "base/parallel.h"
 #include "image/filter.h"
 #include "render/backend.h"
+#include "render/camera_ray.h"
 #include "render/classic.h"
 #include "render/reference.h"
+#include "render/volpath.h"
 
 namespace brume {
 
 namespace {
 
-constexpr int tile_edge = 16;
-
-Ray camera_ray(const CompiledCamera& camera, double x, double y) {
-  const Vector3 origin = camera.world_from_camera.point({});
-  const Vector3 direction =
-      normalize(camera.world_from_camera.vector({camera.x0 + x * camera.dx, camera.y0 + y * camera.dy, 1}));
-  const auto to_float = [](Vector3 v) {
-    return kernel::vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
-  };
-  return {to_float(origin), to_float(direction), far_away};
-}
-
-// The integrators of one worker, of which a scene uses one.
-class Integrators {
+// Renders tiles with the scene's integrator. One to each worker.
+class TileRenderer {
  public:
-  Integrators(const CompiledScene& scene, const Intersector& intersector, const MediaAlongRay& media)
-      : kind_(scene.integrator.kind), classic_(scene, intersector, media), reference_(scene, intersector, media) {}
-
-  Spectrum radiance(const Ray& ray, RandomStream& random) {
-    switch (kind_) {
+  TileRenderer(const CompiledScene& scene, const Intersector& intersector, const MediaAlongRay& media,
+               const Filter& filter)
+      : scene_(scene), filter_(filter) {
+    switch (scene.integrator.kind) {
       case CompiledIntegrator::Kind::classic:
-        return classic_.radiance(ray, random);
+        classic_.emplace(scene, intersector, media);
+        break;
       case CompiledIntegrator::Kind::reference:
-        return reference_.radiance(ray, random);
+        reference_.emplace(scene, intersector, media);
+        break;
+      case CompiledIntegrator::Kind::volpath:
+        volpath_.emplace(scene, intersector, media, filter);
+        break;
     }
-    return {};
   }
+
+  void render_tile(const PixelBox& tile, int first, int last, Film& film) {
+    if (volpath_) return volpath_->render_tile(tile, first, last, film);
+    for (int y = tile.y0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x)
+        for (int s = first; s < last; ++s) film.add(x, y, sample_pixel(scene_.crop.x0 + x, scene_.crop.y0 + y, s));
+  }
+
   std::optional<kernel::vec3> too_many_media() const {
-    return kind_ == CompiledIntegrator::Kind::classic ? classic_.too_many_media() : reference_.too_many_media();
+    return classic_     ? classic_->too_many_media()
+           : reference_ ? reference_->too_many_media()
+                        : volpath_->too_many_media();
   }
-  std::int64_t majorant_violations() const { return reference_.majorant_violations(); }
+  std::int64_t majorant_violations() const {
+    return volpath_ ? volpath_->majorant_violations() : reference_ ? reference_->majorant_violations() : 0;
+  }
 
  private:
-  CompiledIntegrator::Kind kind_;
-  ClassicIntegrator classic_;
-  ReferenceIntegrator reference_;
+  // Of pixel (x, y) of the whole picture.
+  Spectrum sample_pixel(int x, int y, int index) {
+    RandomStream random(scene_, x, y, index);
+    const RandomStream::Pair place = random.next_pair();
+    const FilterSample f = filter_.sample(place.u, place.v);
+    const double px = x + 0.5 + static_cast<double>(f.x), py = y + 0.5 + static_cast<double>(f.y);
+    const Ray ray = camera_ray(scene_.camera, px, py);
+    return f.weight * (classic_ ? classic_->radiance(ray, random) : reference_->radiance(ray, random));
+  }
+
+  const CompiledScene& scene_;
+  const Filter& filter_;
+  std::optional<ClassicIntegrator> classic_;
+  std::optional<ReferenceIntegrator> reference_;
+  std::optional<VolpathIntegrator> volpath_;
 };
 
 class CpuBackend : public Backend {
@@ -69,23 +86,26 @@ class CpuBackend : public Backend {
 
   bool render(int first, int last, int threads, Film& film,
               const std::function<bool(double fraction)>& keep_going) override {
-    const int tiles_x = (film.width() + tile_edge - 1) / tile_edge,
-              tiles_y = (film.height() + tile_edge - 1) / tile_edge;
+    // Large tiles keep volpath's many paths busy; small ones share the others' work out more evenly.
+    const int edge = scene_->integrator.kind == CompiledIntegrator::Kind::volpath ? 32 : 16;
+    const int tiles_x = (film.width() + edge - 1) / edge, tiles_y = (film.height() + edge - 1) / edge;
     const int tiles = tiles_x * tiles_y;
     threads = thread_count(threads);
-    std::vector<std::unique_ptr<Integrators>> integrators;
+    std::vector<std::unique_ptr<TileRenderer>> renderers;
     for (int i = 0; i < threads; ++i)
-      integrators.push_back(std::make_unique<Integrators>(*scene_, *intersector_, *media_));
+      renderers.push_back(std::make_unique<TileRenderer>(*scene_, *intersector_, *media_, *filter_));
     std::atomic<bool> stopped = false;
     std::atomic<int> done = 0;
     parallel_for(tiles, threads, [&](int tile, int worker) {
       if (stopped) return;
-      render_tile(tile % tiles_x, tile / tiles_x, first, last, *integrators[static_cast<std::size_t>(worker)], film);
+      const int x = edge * (tile % tiles_x), y = edge * (tile / tiles_x);
+      renderers[static_cast<std::size_t>(worker)]->render_tile(
+          {x, std::min(x + edge, film.width()), y, std::min(y + edge, film.height())}, first, last, film);
       ++done;
       if (worker == 0 && !keep_going(static_cast<double>(done) / tiles)) stopped = true;
     });
-    for (const auto& i : integrators) majorant_violations_ += i->majorant_violations();
-    for (const auto& i : integrators)
+    for (const auto& i : renderers) majorant_violations_ += i->majorant_violations();
+    for (const auto& i : renderers)
       if (const auto p = i->too_many_media())
         throw InputError("scene",
                          fmt::format("more than {} media overlap at ({}, {}, {})", max_active_media, p->x, p->y, p->z));
@@ -93,22 +113,6 @@ class CpuBackend : public Backend {
   }
 
  private:
-  void render_tile(int tile_x, int tile_y, int first, int last, Integrators& integrators, Film& film) const {
-    const int x_end = std::min((tile_x + 1) * tile_edge, film.width()),
-              y_end = std::min((tile_y + 1) * tile_edge, film.height());
-    for (int y = tile_y * tile_edge; y < y_end; ++y)
-      for (int x = tile_x * tile_edge; x < x_end; ++x)
-        for (int s = first; s < last; ++s) film.add(x, y, sample_pixel(x, y, s, integrators));
-  }
-
-  Spectrum sample_pixel(int x, int y, int index, Integrators& integrators) const {
-    RandomStream random(*scene_, x, y, index);
-    const RandomStream::Pair place = random.next_pair();
-    const FilterSample f = filter_->sample(place.u, place.v);
-    const double px = x + 0.5 + static_cast<double>(f.x), py = y + 0.5 + static_cast<double>(f.y);
-    return f.weight * integrators.radiance(camera_ray(scene_->camera, px, py), random);
-  }
-
   const CompiledScene* scene_ = nullptr;
   std::int64_t majorant_violations_ = 0;
   std::unique_ptr<Filter> filter_;

@@ -4,7 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/sphere_map.h"
+#include "render/area_lights.h"
 #include "render/directions.h"
+#include "render/surfaces.h"
 
 namespace brume {
 
@@ -12,36 +15,150 @@ using kernel::vec3;
 
 namespace {
 
+constexpr float pi = std::numbers::pi_v<float>;
+
 vec3 to_float(Vector3 v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
+Vector3 to_double(vec3 v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
 
 LightSample sample_point(const CompiledLight& light, vec3 p) {
   const vec3 to_light = to_float(light.position) - p;
   // A point at the light itself would see infinity.
   const float squared = std::max(dot(to_light, to_light), 1e-20f), distance = std::sqrt(squared);
-  return {{p, (1 / distance) * to_light, distance}, (1 / squared) * light.value};
+  return {{p, (1 / distance) * to_light, distance}, (1 / squared) * light.value, 0};
+}
+
+LightSample sample_constant(const CompiledLight& light, vec3 p, const vec3* normal, RandomStream& random) {
+  const auto [u, turns] = random.next_pair();
+  if (!normal) return {{p, direction_around_z(1 - 2 * u, turns), far_away}, 4 * pi * light.value, 0.25f / pi};
+  const float cosine = std::sqrt(1 - u);
+  return {
+      {p, rotate_to(*normal, direction_around_z(cosine, turns)), far_away}, (pi / cosine) * light.value, cosine / pi};
+}
+
+// The last of the `count` steps of a cumulative table at which it does not exceed u; u becomes the share of that step
+// that lies before it.
+std::uint32_t draw(const float* cdf, std::uint32_t count, float& u) {
+  const auto i = static_cast<std::uint32_t>(std::upper_bound(cdf + 1, cdf + count, u) - (cdf + 1));
+  u = std::clamp((u - cdf[i]) / (cdf[i + 1] - cdf[i]), 0.0f, 1.0f);
+  return i;
+}
+
+float pixel_density(const CompiledEnvironment& e, std::uint32_t column, std::uint32_t row) {
+  const float* in_row = e.pixel_cdf.data() + static_cast<std::size_t>(row) * (e.width + 1);
+  const float chance = (e.row_cdf[row + 1] - e.row_cdf[row]) * (in_row[column + 1] - in_row[column]);
+  return chance / e.pixel_solid_angle[row];
+}
+
+Spectrum pixel(const CompiledEnvironment& e, std::uint32_t column, std::uint32_t row) {
+  const float* rgb = e.pixels.data() + 3 * (static_cast<std::size_t>(row) * e.width + column);
+  return {{rgb[0], rgb[1], rgb[2]}};
+}
+
+// A direction of the light's space in a pixel, at fractions of its width and, by solid angle, of its height.
+Vector3 direction_in_pixel(const CompiledEnvironment& e, std::uint32_t column, std::uint32_t row, double right,
+                           double down) {
+  const double u = (column + right) / e.width;
+  if (e.projection == CompiledEnvironment::Projection::equal_area)
+    return equal_area_direction({u, (row + down) / e.height});
+  const double upper = std::cos(std::numbers::pi * row / e.height),
+               lower = std::cos(std::numbers::pi * (row + 1) / e.height);
+  const double z = upper + down * (lower - upper), ring = std::sqrt(std::max(0.0, 1 - z * z)),
+               phi = 2 * std::numbers::pi * u;
+  return {ring * std::cos(phi), ring * std::sin(phi), z};
+}
+
+void find_pixel(const CompiledEnvironment& e, vec3 direction, std::uint32_t& column, std::uint32_t& row) {
+  const Vector3 d = normalize(e.light_from_world.vector(to_double(direction)));
+  const SquarePoint p =
+      e.projection == CompiledEnvironment::Projection::equal_area ? equal_area_point(d) : equirectangular_point(d);
+  column = std::min(static_cast<std::uint32_t>(p.u * e.width), e.width - 1);
+  row = std::min(static_cast<std::uint32_t>(p.v * e.height), e.height - 1);
+}
+
+LightSample sample_image(const CompiledScene& scene, const CompiledLight& light, vec3 p, RandomStream& random) {
+  const CompiledEnvironment& e = scene.environments[static_cast<std::size_t>(light.environment)];
+  auto [right, down] = random.next_pair();
+  const std::uint32_t row = draw(e.row_cdf.data(), e.height, down);
+  const std::uint32_t column = draw(e.pixel_cdf.data() + static_cast<std::size_t>(row) * (e.width + 1), e.width, right);
+  const Vector3 d = direction_in_pixel(e, column, row, static_cast<double>(right), static_cast<double>(down));
+  const float pdf = pixel_density(e, column, row);
+  if (!(pdf > 0)) return {{p, {0, 0, 1}, far_away}, {}, 0};  // a black image
+  return {{p, to_float(normalize(e.world_from_light.vector(d))), far_away},
+          (1 / pdf) * light.value * pixel(e, column, row),
+          pdf};
+}
+
+LightSample sample_area(const CompiledScene& scene, const CompiledLight& light, vec3 p, RandomStream& random) {
+  const LightPoint q = sample_area_light(scene, light, p, random);
+  // The shadow ray is to end short of the light's surface, also where it starts a little off another one.
+  const vec3 towards = q.position - p, n = dot(q.normal, towards) < 0 ? q.normal : -q.normal;
+  const float reach = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), length(towards)});
+  const vec3 to_light = leave_surface(leave_surface(q.position, n, reach), n, reach) - p;
+  const float distance = length(to_light);
+  const bool lit = (light.two_sided || dot(q.normal, towards) < 0) && q.pdf > 0 && distance > 0;
+  if (!lit) return {{p, {0, 0, 1}, far_away}, {}, 0};
+  return {{p, (1 / distance) * to_light, distance}, (1 / q.pdf) * light.value, q.pdf};
 }
 
 }  // namespace
 
-LightSample sample_light_from_point(const CompiledLight& light, vec3 p, RandomStream& random) {
+LightChoice choose_light(const CompiledScene& scene, float u) {
+  if (scene.lights.empty()) return {};
+  const auto& cdf = scene.light_cdf;
+  const auto i = static_cast<std::size_t>(std::upper_bound(cdf.begin(), cdf.end() - 1, u) - cdf.begin());
+  return {static_cast<int>(i), scene.lights[i].chance};
+}
+
+LightSample sample_light(const CompiledScene& scene, const CompiledLight& light, vec3 p, const vec3* normal,
+                         RandomStream& random) {
   switch (light.kind) {
     case CompiledLight::Kind::point:
       return sample_point(light, p);
     case CompiledLight::Kind::distant:
-      return {{p, to_float(light.direction_to), far_away}, light.value};
+      return {{p, to_float(light.direction_to), far_away}, light.value, 0};
     case CompiledLight::Kind::infinite:
       break;
+    case CompiledLight::Kind::image:
+      return sample_image(scene, light, p, random);
+    case CompiledLight::Kind::area:
+      return sample_area(scene, light, p, random);
   }
-  const auto [u, turns] = random.next_pair();
-  return {{p, direction_around_z(1 - 2 * u, turns), far_away}, 4 * std::numbers::pi_v<float> * light.value};
+  return sample_constant(light, p, normal, random);
 }
 
-LightSample sample_light_from_surface(const CompiledLight& light, vec3 p, vec3 n, RandomStream& random) {
-  if (light.kind != CompiledLight::Kind::infinite) return sample_light_from_point(light, p, random);
-  const auto [u, turns] = random.next_pair();
-  const float cosine = std::sqrt(1 - u);
-  return {{p, rotate_to(n, direction_around_z(cosine, turns)), far_away},
-          (std::numbers::pi_v<float> / cosine) * light.value};
+float light_pdf(const CompiledScene& scene, const CompiledLight& light, const Ray& ray, const vec3* normal,
+                const SurfaceHit& hit) {
+  switch (light.kind) {
+    case CompiledLight::Kind::point:
+    case CompiledLight::Kind::distant:
+      return 0;
+    case CompiledLight::Kind::infinite:
+      return normal ? clamped_cosine(*normal, ray.direction) / pi : 0.25f / pi;
+    case CompiledLight::Kind::image:
+      break;
+    case CompiledLight::Kind::area:
+      return area_light_pdf(scene, light, ray, hit);
+  }
+  std::uint32_t column = 0, row = 0;
+  const CompiledEnvironment& e = scene.environments[static_cast<std::size_t>(light.environment)];
+  find_pixel(e, ray.direction, column, row);
+  return pixel_density(e, column, row);
+}
+
+Spectrum environment_radiance(const CompiledScene& scene, const CompiledLight& light, vec3 direction) {
+  if (light.kind == CompiledLight::Kind::infinite) return light.value;
+  if (light.kind != CompiledLight::Kind::image) return {};
+  const CompiledEnvironment& e = scene.environments[static_cast<std::size_t>(light.environment)];
+  std::uint32_t column = 0, row = 0;
+  find_pixel(e, direction, column, row);
+  return light.value * pixel(e, column, row);
+}
+
+Spectrum emitted_radiance(const CompiledScene& scene, const SurfaceHit& hit, vec3 direction) {
+  const std::int32_t index = scene.shapes[static_cast<std::size_t>(hit.shape)].light;
+  if (index < 0) return {};
+  const CompiledLight& light = scene.lights[static_cast<std::size_t>(index)];
+  return light.two_sided || dot(hit.normal, direction) < 0 ? light.value : Spectrum{};
 }
 
 }  // namespace brume

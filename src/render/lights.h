@@ -7,19 +7,37 @@
 
 namespace brume {
 
+// A light drawn in proportion to (about) the power that it sends into the scene.
+struct LightChoice {
+  int index = -1;  // below 0: there is no light
+  float chance = 0;
+};
+LightChoice choose_light(const CompiledScene& scene, float u);
+
 // One direction towards a light. `value` is radiance times solid angle, that is the light's radiance over the density
-// with which the direction was chosen; point and distant lights have one direction and their irradiance of a facing
-// surface.
+// `pdf` with which the direction was chosen; point and distant lights have one direction, pdf 0, and their irradiance
+// of a facing surface. The ray ends short of the light's own surface.
 struct LightSample {
   Ray ray;
   Spectrum value;
+  float pdf = 0;  // per steradian
 };
 
-// From a point in a medium.
-LightSample sample_light_from_point(const CompiledLight& light, kernel::vec3 p, RandomStream& random);
+// From a point p: in a medium, where `normal` is null, else on a surface whose unit normal on the lit side it is.
+// Directions of a constant infinite light are uniform in a medium and in proportion to their cosine on a surface.
+// The ray starts at p; from a surface, whoever follows it starts a little off (leave_surface).
+LightSample sample_light(const CompiledScene& scene, const CompiledLight& light, kernel::vec3 p,
+                         const kernel::vec3* normal, RandomStream& random);
 
-// From a surface whose unit normal on the lit side is n: directions of an infinite light are chosen in proportion to
-// their cosine with n.
-LightSample sample_light_from_surface(const CompiledLight& light, kernel::vec3 p, kernel::vec3 n, RandomStream& random);
+// The density with which sample_light, from the ray's origin, takes its direction. `hit` is where the ray meets the
+// light's surface, as the intersector gives it, and unused for lights without one. 0 for point and distant lights.
+float light_pdf(const CompiledScene& scene, const CompiledLight& light, const Ray& ray, const kernel::vec3* normal,
+                const SurfaceHit& hit);
+
+// The radiance that an infinite light, constant or image, sends against `direction`; 0 for the others.
+Spectrum environment_radiance(const CompiledScene& scene, const CompiledLight& light, kernel::vec3 direction);
+
+// The radiance that the surface at `hit`, as the intersector gives it, sends against `direction`.
+Spectrum emitted_radiance(const CompiledScene& scene, const SurfaceHit& hit, kernel::vec3 direction);
 
 }  // namespace brume

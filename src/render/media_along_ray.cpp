@@ -55,6 +55,16 @@ MediaAlongRay::MediaAlongRay(const CompiledScene& scene, const Intersector& inte
   bool accounted = false;
   for (const auto& [medium, count] : counts_at(p))
     accounted = accounted || (medium == scene.camera_medium && count > 0);
+  for (const CompiledVolume& volume : scene.volumes) {
+    const Vector3 in_box = volume.box_from_world.point(eye);
+    bool inside = volume.medium == scene.camera_medium;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<std::size_t>(axis);
+      inside = inside && static_cast<double>(volume.lo[i]) <= in_box[axis] &&
+               in_box[axis] <= static_cast<double>(volume.hi[i]);
+    }
+    accounted = accounted || inside;
+  }
   if (!accounted) surrounding_medium_ = scene.camera_medium;
 }
 
@@ -83,6 +93,16 @@ std::vector<std::pair<int, int>> MediaAlongRay::counts_at(vec3 p) const {
 
 std::optional<vec3> MediaAlongRay::find(std::span<const Ray> rays, std::vector<MediumSpan>& spans,
                                         std::vector<Crossing>& scratch) const {
+  const std::optional<vec3> too_many = find_bounded(rays, spans, scratch);
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    for (const CompiledVolume& volume : scene_.volumes)
+      add_span_in_box(rays[i], {static_cast<int>(i), volume.medium, 1, 0, rays[i].t_max, {0, 0, 0}, {0, 0, 0}}, volume,
+                      spans);
+  return too_many;
+}
+
+std::optional<vec3> MediaAlongRay::find_bounded(std::span<const Ray> rays, std::vector<MediumSpan>& spans,
+                                                std::vector<Crossing>& scratch) const {
   spans.clear();
   intersector_.crossings(rays, scratch);
   std::optional<vec3> too_many;
@@ -92,8 +112,6 @@ std::optional<vec3> MediaAlongRay::find(std::span<const Ray> rays, std::vector<M
     while (next < scratch.size() && scratch[next].ray == static_cast<int>(i)) ++next;
     if (const auto place = follow(rays[i], static_cast<int>(i), std::span(scratch).subspan(first, next - first), spans))
       too_many = place;
-    for (const int medium : scene_.free_volumes)
-      add_span(rays[i], {static_cast<int>(i), medium, 1, 0, rays[i].t_max, {0, 0, 0}, {0, 0, 0}}, spans);
   }
   return too_many;
 }
@@ -131,19 +149,26 @@ void MediaAlongRay::add_span(const Ray& ray, MediumSpan span, std::vector<Medium
   const CompiledMedium& medium = scene_.media[static_cast<std::size_t>(span.medium)];
   if (medium.grid >= 0) {
     const CompiledGrid& grid = scene_.grids[static_cast<std::size_t>(medium.grid)];
-    const auto& m = medium.index_from_world;
-    const Vector3 o = m.point({ray.origin.x, ray.origin.y, ray.origin.z});
-    const Vector3 d = m.vector({ray.direction.x, ray.direction.y, ray.direction.z});
-    const vec3 origin(static_cast<float>(o.x), static_cast<float>(o.y), static_cast<float>(o.z));
-    const vec3 direction(static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z));
-    const vec3 lo(grid.bounds_lo[0], grid.bounds_lo[1], grid.bounds_lo[2]);
-    const vec3 hi(grid.bounds_hi[0], grid.bounds_hi[1], grid.bounds_hi[2]);
-    const kernel::BoxSpan within = kernel::box_span(origin, direction, lo, hi, span.t_begin, span.t_end);
-    span.t_begin = within.t_enter;
-    span.t_end = within.t_enter + within.t_length;
-    span.entry_index = within.entry;
-    span.direction_index = direction;
+    add_span_in_box(ray, span, {span.medium, medium.index_from_world, grid.bounds_lo, grid.bounds_hi}, spans);
+  } else if (span.t_end > span.t_begin) {
+    spans.push_back(span);
   }
+}
+
+void MediaAlongRay::add_span_in_box(const Ray& ray, MediumSpan span, const CompiledVolume& volume,
+                                    std::vector<MediumSpan>& spans) const {
+  const auto to_float = [](Vector3 v) {
+    return vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
+  };
+  const Transform& m = volume.box_from_world;
+  const vec3 origin = to_float(m.point({ray.origin.x, ray.origin.y, ray.origin.z}));
+  const vec3 direction = to_float(m.vector({ray.direction.x, ray.direction.y, ray.direction.z}));
+  const vec3 lo(volume.lo[0], volume.lo[1], volume.lo[2]), hi(volume.hi[0], volume.hi[1], volume.hi[2]);
+  const kernel::BoxSpan within = kernel::box_span(origin, direction, lo, hi, span.t_begin, span.t_end);
+  span.t_begin = within.t_enter;
+  span.t_end = within.t_enter + within.t_length;
+  span.entry_index = within.entry;
+  span.direction_index = direction;
   if (span.t_end > span.t_begin) spans.push_back(span);
 }
 

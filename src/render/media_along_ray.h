@@ -17,7 +17,7 @@ struct MediumSpan {
   int medium = no_medium;
   int count = 1;  // how many times over the medium is there
   float t_begin = 0, t_end = 0;
-  // For a grid: the ray restarted at t_begin, p_index = entry_index + (t - t_begin) direction_index.
+  // For a grid (or a box): the ray restarted at t_begin, p_index = entry_index + (t - t_begin) direction_index.
   kernel::vec3 entry_index{0, 0, 0}, direction_index{0, 0, 0};
 };
 
@@ -35,13 +35,23 @@ class MediaAlongRay {
   std::optional<kernel::vec3> find(std::span<const Ray> rays, std::vector<MediumSpan>& spans,
                                    std::vector<Crossing>& scratch) const;
 
-  // The media at a point and how many times over each is there, free volumes apart. For messages and for the camera.
+  // The same for media with boundaries of shapes and the one around all; volumes in boxes are left out.
+  std::optional<kernel::vec3> find_bounded(std::span<const Ray> rays, std::vector<MediumSpan>& spans,
+                                           std::vector<Crossing>& scratch) const;
+
+  // Whether a medium surrounds all shapes.
+  bool has_surrounding_medium() const { return surrounding_medium_ != no_medium; }
+
+  // The media at a point and how many times over each is there, volumes in boxes apart. For messages and for the
+  // camera.
   std::vector<std::pair<int, int>> counts_at(kernel::vec3 p) const;
 
  private:
   std::optional<kernel::vec3> follow(const Ray& ray, int ray_index, std::span<const Crossing> crossings,
                                      std::vector<MediumSpan>& spans) const;
   void add_span(const Ray& ray, MediumSpan span, std::vector<MediumSpan>& spans) const;
+  void add_span_in_box(const Ray& ray, MediumSpan span, const CompiledVolume& volume,
+                       std::vector<MediumSpan>& spans) const;
 
   const CompiledScene& scene_;
   const Intersector& intersector_;

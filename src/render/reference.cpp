@@ -14,8 +14,6 @@ using kernel::vec3;
 
 namespace {
 
-constexpr float inverse_sphere = 0.25f * std::numbers::inv_pi_v<float>;  // density of a uniform direction
-
 float sum(const Spectrum& s) {
   float total = 0;
   for (int c = 0; c < channel_count; ++c) total += s[c];
@@ -25,14 +23,11 @@ float sum(const Spectrum& s) {
 // The distance to the next event of a Poisson process of rate `rate`.
 float exponential(float rate, RandomStream& random) { return -kernel::log_natural(1 - random.next()) / rate; }
 
-bool is_infinite(const CompiledLight& light) { return light.kind == CompiledLight::Kind::infinite; }
-
 }  // namespace
 
 Spectrum ReferenceIntegrator::radiance(Ray ray, RandomStream& random) {
   Spectrum result, throughput = constant_spectrum(1);
-  // The share of an infinite light, seen at the end of this flight, that next-event estimation has left to it.
-  float unseen_share = 1;
+  Departure departure;
   for (int scatterings = 0;; ++scatterings) {
     SurfaceHit hit;
     const bool is_hit = intersector_.nearest_surface(ray, hit);
@@ -41,45 +36,32 @@ Spectrum ReferenceIntegrator::radiance(Ray ray, RandomStream& random) {
     Spectrum emitted;
     const bool collides = fly(ray, random, throughput, emitted, collision);
     result = result + emitted;
-    if (!collides && !is_hit) {
-      for (const CompiledLight& light : scene_.lights)
-        if (is_infinite(light)) result = result + unseen_share * throughput * light.value;
-      return result;
-    }
-    if (scatterings == scene_.integrator.max_depth) return result;
+    if (!collides) result = result + throughput * light_met(ray, is_hit ? &hit : nullptr, departure);
+    if (scatterings == scene_.integrator.max_depth || (!collides && !is_hit)) return result;
 
     if (collides) {
       const CompiledMedium& medium = scene_.media[static_cast<std::size_t>(collision.medium)];
-      result = result + throughput * light_at_collision(ray, collision, random);
+      const auto scatter = [&](vec3 to_light, float& pdf) {
+        pdf = phase_eval(medium, std::clamp(dot(to_light, ray.direction), -1.0f, 1.0f));
+        return constant_spectrum(pdf);
+      };
+      result = result + throughput * direct_light(collision.position, nullptr, random, scatter);
       const auto [u, turns] = random.next_pair();
       const float mu = phase_sample(medium, u);
-      const vec3 direction = rotate_to(ray.direction, direction_around_z(mu, turns));
-      const float chosen = phase_eval(medium, mu);
-      unseen_share = chosen / (chosen + inverse_sphere);
-      ray = {collision.position, normalize(direction), far_away};
+      departure = {phase_eval(medium, mu), false, {}};
+      ray = {collision.position, normalize(rotate_to(ray.direction, direction_around_z(mu, turns))), far_away};
     } else {
       hit = facing(hit, ray.direction);
-      result = result + throughput * light_at_surface(ray, hit, random);
-      const CompiledShape& shape = scene_.shapes[static_cast<std::size_t>(hit.shape)];
-      const CompiledMaterial& material = scene_.materials[static_cast<std::size_t>(shape.material)];
-      const float mirror = sum(material.mirror), matt = sum(material.diffuse + material.specular);
-      if (mirror + matt == 0) return result;
-      const float mirror_chance = mirror / (mirror + matt);
-      vec3 direction;
-      if (random.next() < mirror_chance) {
-        direction = reflect(ray.direction, hit.shading_normal);
-        throughput = (1 / mirror_chance) * throughput * material.mirror;
-        unseen_share = 1;
-      } else {
-        // By the cosine, as infinite lights are sampled too: the shares are those of the chances alone.
-        const auto [u, turns] = random.next_pair();
-        direction = rotate_to(hit.shading_normal, direction_around_z(std::sqrt(1 - u), turns));
-        const Spectrum f = blinn_phong(material, hit.shading_normal, direction, -ray.direction);
-        throughput = (std::numbers::pi_v<float> / (1 - mirror_chance)) * throughput * f;
-        unseen_share = (1 - mirror_chance) / (2 - mirror_chance);
+      const auto scatter = [&](vec3 to_light, float& pdf) {
+        return eval_surface(scene_, hit, ray.direction, to_light, pdf);
+      };
+      if (scatters_widely(material_at(scene_, hit))) {
+        result = result + throughput * direct_light(ray.at(hit.t), &hit, random, scatter);
       }
-      if (dot(direction, hit.normal) <= 0) return result;
-      ray = {leave_surface(ray.at(hit.t), hit.normal, hit.t), normalize(direction), far_away};
+      const SurfaceSample sample = sample_surface(scene_, hit, ray.direction, random);
+      throughput = throughput * sample.weight;
+      departure = {sample.pdf, true, hit.shading_normal};
+      ray = continued(ray, hit, sample);
     }
 
     // Russian roulette on paths that carry little.
@@ -87,6 +69,44 @@ Spectrum ReferenceIntegrator::radiance(Ray ray, RandomStream& random) {
     if (!(random.next() < survival)) return result;
     throughput = (1 / survival) * throughput;
   }
+}
+
+// Light that a flight meets at its end, on the surface that it hits or beyond all; weighed against next-event
+// estimation, which finds the same light unless the flight began with a mirror's or a refracted direction.
+Spectrum ReferenceIntegrator::light_met(const Ray& ray, const SurfaceHit* hit, const Departure& departure) const {
+  const auto share = [&](const CompiledLight& light) {
+    if (departure.pdf == 0) return 1.0f;
+    const vec3* normal = departure.from_surface ? &departure.normal : nullptr;
+    return departure.pdf /
+           (departure.pdf + light.chance * light_pdf(scene_, light, ray, normal, hit ? *hit : SurfaceHit{}));
+  };
+  Spectrum result;
+  if (hit) {
+    const std::int32_t index = scene_.shapes[static_cast<std::size_t>(hit->shape)].light;
+    if (index < 0) return {};
+    return share(scene_.lights[static_cast<std::size_t>(index)]) * emitted_radiance(scene_, *hit, ray.direction);
+  }
+  for (const CompiledLight& light : scene_.lights)
+    if (const Spectrum radiance = environment_radiance(scene_, light, ray.direction); !is_zero(radiance))
+      result = result + share(light) * radiance;
+  return result;
+}
+
+// Next-event estimation: light that arrives directly at p, in a medium or on the surface `hit`, and is scattered along
+// the path, backwards. `scatter` gives for a direction to a light the phase function or f cos, and the density with
+// which the path itself goes on so.
+template <class Scatter>
+Spectrum ReferenceIntegrator::direct_light(vec3 p, const SurfaceHit* hit, RandomStream& random, Scatter scatter) {
+  const LightChoice choice = choose_light(scene_, random.next());
+  if (choice.index < 0) return {};
+  const CompiledLight& light = scene_.lights[static_cast<std::size_t>(choice.index)];
+  const LightSample s = sample_light(scene_, light, p, hit ? &hit->shading_normal : nullptr, random);
+  float pdf = 0;
+  const Spectrum scattered = s.value * scatter(s.ray.direction, pdf);
+  if (is_zero(scattered)) return {};
+  const float light_pdf = choice.chance * s.pdf, share = s.pdf > 0 ? light_pdf / (light_pdf + pdf) : 1;
+  const vec3 start = hit ? leave_surface(p, hit->normal, hit->t) : p;
+  return (share / choice.chance) * scattered * transmittance({start, s.ray.direction, s.ray.t_max}, random);
 }
 
 // Visits tentative collisions along the ray, nearest first, at the rate of a majorant of all media together (or of
@@ -202,39 +222,6 @@ Spectrum ReferenceIntegrator::transmittance(const Ray& ray, RandomStream& random
     result = {};
     return false;
   });
-  return result;
-}
-
-// Light that arrives directly at a collision and goes on along the ray, backwards.
-Spectrum ReferenceIntegrator::light_at_collision(const Ray& ray, const Collision& collision, RandomStream& random) {
-  const CompiledMedium& medium = scene_.media[static_cast<std::size_t>(collision.medium)];
-  Spectrum result;
-  for (const CompiledLight& light : scene_.lights) {
-    const LightSample s = sample_light_from_point(light, collision.position, random);
-    const float phase = phase_eval(medium, std::clamp(dot(s.ray.direction, ray.direction), -1.0f, 1.0f));
-    const float share = is_infinite(light) ? inverse_sphere / (inverse_sphere + phase) : 1;
-    result = result + (share * phase) * s.value * transmittance(s.ray, random);
-  }
-  return result;
-}
-
-// Light that arrives directly at a surface and is reflected along the ray, backwards.
-Spectrum ReferenceIntegrator::light_at_surface(const Ray& ray, const SurfaceHit& hit, RandomStream& random) {
-  const CompiledShape& shape = scene_.shapes[static_cast<std::size_t>(hit.shape)];
-  const CompiledMaterial& material = scene_.materials[static_cast<std::size_t>(shape.material)];
-  const float mirror = sum(material.mirror), matt = sum(material.diffuse + material.specular);
-  Spectrum result;
-  if (matt == 0) return result;
-  const vec3 p = ray.at(hit.t), start = leave_surface(p, hit.normal, hit.t);
-  const float light_share = 1 / (2 - mirror / (mirror + matt));
-  for (const CompiledLight& light : scene_.lights) {
-    const LightSample s = sample_light_from_surface(light, p, hit.shading_normal, random);
-    const float cosine = dot(s.ray.direction, hit.shading_normal);
-    if (cosine <= 0 || dot(s.ray.direction, hit.normal) <= 0) continue;
-    const Spectrum f = blinn_phong(material, hit.shading_normal, s.ray.direction, -ray.direction);
-    const float share = is_infinite(light) ? light_share : 1;
-    result = result + (share * cosine) * f * s.value * transmittance({start, s.ray.direction, s.ray.t_max}, random);
-  }
   return result;
 }
 

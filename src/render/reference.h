@@ -8,12 +8,12 @@
 // is ratio tracking: the product of (1 - sigma_t / majorant) over tentative collisions, and exact through homogeneous
 // media. Where extinction depends on the channel, one path serves all channels: the chance of a real collision is the
 // mean over channels weighted by the path's throughput, and each channel's throughput is corrected by the ratio of its
-// own coefficient to that mean, so weights stay bounded. Light of infinite lights is found both by next-event
-// estimation and by flights that leave the scene; the balance heuristic weighs the two. Sources: E. Woodcock et al.,
-// "Techniques used in the GEM code", ANL-7050, 1965 (delta tracking); J. Novak et al., "Residual Ratio Tracking", TOG
-// 33(6), 2014 (ratio tracking); P. Kutz et al., "Spectral and Decomposition Tracking", TOG 36(4), 2017 (history-aware
-// channels); B. Miller et al., "A null-scattering path integral formulation of light transport", TOG 38(4), 2019; E.
-// Veach, PhD thesis, 1997, sections 9.2 and 10.4 (balance heuristic, roulette).
+// own coefficient to that mean, so weights stay bounded. Light with an extent is found both by next-event estimation,
+// of one light chosen by power, and by flights that meet it; the balance heuristic weighs the two. Sources: E. Woodcock
+// et al., "Techniques used in the GEM code", ANL-7050, 1965 (delta tracking); J. Novak et al., "Residual Ratio
+// Tracking", TOG 33(6), 2014 (ratio tracking); P. Kutz et al., "Spectral and Decomposition Tracking", TOG 36(4), 2017
+// (history-aware channels); B. Miller et al., "A null-scattering path integral formulation of light transport", TOG
+// 38(4), 2019; E. Veach, PhD thesis, 1997, sections 9.2 and 10.4 (balance heuristic, roulette).
 #pragma once
 
 #include <vector>
@@ -42,11 +42,18 @@ class ReferenceIntegrator {
     kernel::vec3 position;
     int medium;
   };
+  // How a flight began: the density of its direction, 0 at the camera and after mirrors and refraction; and from what.
+  struct Departure {
+    float pdf = 0;
+    bool from_surface = false;
+    kernel::vec3 normal{0, 0, 0};
+  };
 
   bool fly(const Ray& ray, RandomStream& random, Spectrum& throughput, Spectrum& emitted, Collision& collision);
   Spectrum transmittance(const Ray& ray, RandomStream& random);
-  Spectrum light_at_collision(const Ray& ray, const Collision& collision, RandomStream& random);
-  Spectrum light_at_surface(const Ray& ray, const SurfaceHit& hit, RandomStream& random);
+  Spectrum light_met(const Ray& ray, const SurfaceHit* hit, const Departure& departure) const;
+  template <class Scatter>
+  Spectrum direct_light(kernel::vec3 p, const SurfaceHit* hit, RandomStream& random, Scatter scatter);
   template <class Visit>
   void tentative_collisions(bool grids_only, RandomStream& random, Visit visit);
   float density(const MediumSpan& span, float t) const;

@@ -1,4 +1,4 @@
-// Surfaces as integrators see them: reflection, and how rays leave them.
+// Surfaces as integrators see them: reflection and refraction, and how rays leave them.
 #pragma once
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 
 #include "compiled/compiled_scene.h"
 #include "intersect/intersector.h"
+#include "render/random_stream.h"
 
 namespace brume {
 
@@ -15,6 +16,7 @@ inline SurfaceHit facing(SurfaceHit hit, kernel::vec3 direction) {
   if (dot(hit.normal, direction) <= 0) return hit;
   hit.normal = -hit.normal;
   hit.shading_normal = -hit.shading_normal;
+  hit.from_inside = !hit.from_inside;
   return hit;
 }
 
@@ -43,6 +45,37 @@ inline Spectrum blinn_phong(const CompiledMaterial& m, kernel::vec3 n, kernel::v
 // The direction of a mirror's reflection.
 inline kernel::vec3 reflect(kernel::vec3 direction, kernel::vec3 normal) {
   return normalize(direction - (2 * dot(direction, normal)) * normal);
+}
+
+inline const CompiledMaterial& material_at(const CompiledScene& scene, const SurfaceHit& hit) {
+  return scene.materials[static_cast<std::size_t>(scene.shapes[static_cast<std::size_t>(hit.shape)].material)];
+}
+
+// A direction in which a path goes on. The weight is f |cos| over the chance of the choice, for radiance that travels
+// against the path: refraction into a medium of index n times as great divides it by n^2. Zero where the path ends.
+struct SurfaceSample {
+  kernel::vec3 direction;
+  Spectrum weight;
+  float pdf = 0;  // per steradian; 0 for a mirror's direction or a refracted one, which is the only one
+  bool transmitted = false;
+};
+
+// Below, `hit` is facing the ray that travels along `direction`.
+SurfaceSample sample_surface(const CompiledScene& scene, const SurfaceHit& hit, kernel::vec3 direction,
+                             RandomStream& random);
+
+// f cos for light from the direction `to_light` on the ray's side, mirrors left out; `pdf` is the density with which
+// sample_surface takes that direction.
+Spectrum eval_surface(const CompiledScene& scene, const SurfaceHit& hit, kernel::vec3 direction, kernel::vec3 to_light,
+                      float& pdf);
+
+// True where eval_surface is not 0 throughout, that is where light can be gathered by shadow rays.
+bool scatters_widely(const CompiledMaterial& material);
+
+// The ray that goes on from `ray`'s hit, and starts on the side that it is going to.
+inline Ray continued(const Ray& ray, const SurfaceHit& hit, const SurfaceSample& sample) {
+  const kernel::vec3 away = sample.transmitted ? -hit.normal : hit.normal;
+  return {leave_surface(ray.at(hit.t), away, hit.t), sample.direction, far_away};
 }
 
 }  // namespace brume

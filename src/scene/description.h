@@ -4,8 +4,10 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -13,6 +15,7 @@
 
 #include "base/diagnostics.h"
 #include "base/geometry.h"
+#include "base/pixel_box.h"
 #include "base/pixel_filter.h"
 #include "base/spectrum.h"
 #include "kernel/phase_table.h"
@@ -22,8 +25,18 @@ namespace brume {
 struct FilmDescription {
   std::string filename = "brume.exr";
   int width = 1280, height = 720;
+  std::array<double, 4> crop_window{0, 1, 0, 1};  // x0 x1 y0 y1, as fractions: the part that is rendered
   bool save_fp16 = true;
 };
+
+// The pixels of the crop window. As pbrt has it, a pixel belongs to the window that its upper left corner lies in: from
+// ceil(x0 width) up to ceil(x1 width), so that windows which tile the picture share no pixel. A millionth of a pixel is
+// taken for rounding.
+inline PixelBox cropped_pixels(const FilmDescription& film) {
+  const auto first = [](double fraction, int edge) { return static_cast<int>(std::ceil(fraction * edge - 1e-6)); };
+  const std::array<double, 4>& c = film.crop_window;
+  return {first(c[0], film.width), first(c[1], film.width), first(c[2], film.height), first(c[3], film.height)};
+}
 
 struct SamplerDescription {
   enum class Kind { independent, zsobol } kind = Kind::zsobol;
@@ -103,7 +116,16 @@ struct BlinnPhongMaterial {
 };
 // No surface: the boundary of a medium.
 struct InterfaceMaterial {};
-using MaterialDescription = std::variant<DiffuseMaterial, BlinnPhongMaterial, InterfaceMaterial>;
+// A smooth metal, by its complex index of refraction.
+struct ConductorMaterial {
+  Spectrum eta, k;
+};
+// Smooth glass, by the index of refraction of its inside over that of its outside.
+struct DielectricMaterial {
+  float eta = 1.5f;
+};
+using MaterialDescription =
+    std::variant<DiffuseMaterial, BlinnPhongMaterial, InterfaceMaterial, ConductorMaterial, DielectricMaterial>;
 
 struct SphereShape {
   double radius = 1;
@@ -117,8 +139,25 @@ struct TriangleMeshShape {
 struct QuadShape {
   Vector3 origin{-1, 0, 1}, edge_u{2, 0, 0}, edge_v{0, 0, -2};
 };
+// In the plane z = height, facing +z.
+struct DiskShape {
+  double radius = 1, height = 0, inner_radius = 0;
+  double phi_max = 360;  // degrees from the x axis
+};
+// About the z axis, without caps.
+struct CylinderShape {
+  double radius = 1, z_min = -1, z_max = 1;
+  double phi_max = 360;
+};
 // The bounds of the inside medium itself, without a surface.
 struct VolumeShape {};
+
+// What a shape sends out on the side of its normal, or on both.
+struct AreaLight {
+  Spectrum radiance;
+  bool two_sided = false;
+  double power = 0;  // above 0: `radiance` is to be multiplied by power / (pi area), halved where two-sided
+};
 
 struct ShapeDescription {
   Transform world_from_object;
@@ -126,7 +165,8 @@ struct ShapeDescription {
   bool reverse_orientation = false;
   MaterialDescription material;
   std::string inside, outside;  // media; "" is none
-  std::variant<SphereShape, TriangleMeshShape, QuadShape, VolumeShape> kind;
+  std::optional<AreaLight> light{};
+  std::variant<SphereShape, TriangleMeshShape, QuadShape, DiskShape, CylinderShape, VolumeShape> kind;
   Location location;
 };
 
@@ -138,8 +178,12 @@ struct DistantLight {
   Vector3 direction_to_light;  // world, unit
   Spectrum radiance;           // irradiance on a surface that faces it
 };
+// Constant, or an image around the scene.
 struct InfiniteLight {
-  Spectrum radiance;
+  Spectrum radiance;       // multiplies the image
+  std::string filename{};  // of the image, resolved; "" for none
+  Transform world_from_light{};
+  double illuminance = 0;  // above 0: an image is scaled to this illuminance of a surface that faces the light's +z
 };
 struct LightDescription {
   std::variant<PointLight, DistantLight, InfiniteLight> kind;

@@ -15,12 +15,13 @@ namespace {
 constexpr double max_float = std::numeric_limits<float>::max();
 
 // A light's colour times its scale. A light of luminance 1 has the photometric total `unit_total` (its power, or the
-// illuminance it makes); where the scene gives a total by `total_name`, the scale becomes that total's share too, as
-// pbrt's.
+// illuminance it makes); where the scene gives a total by `total_name`, which may be "" for none, the scale becomes
+// that total's share too, as pbrt's.
 Spectrum read_colour(ParameterList& p, std::string_view name, std::string_view total_name, double unit_total) {
   const Spectrum colour = p.colour(name, constant_spectrum(1), ColourUse::light);
   double scale = p.number("scale", 1, Range::at_least(0));
-  if (const double total = p.number(total_name, -1); total > 0) scale *= total / unit_total;
+  if (!total_name.empty())
+    if (const double total = p.number(total_name, -1); total > 0) scale *= total / unit_total;
   Spectrum product;
   for (int c = 0; c < channel_count; ++c) {
     const double v = scale * static_cast<double>(colour[c]);
@@ -50,7 +51,35 @@ DistantLight read_distant(ParameterList& p, const Transform& ctm) {
   return light;
 }
 
+// Whether a map turns, mirrors and enlarges alike in all directions, and no more.
+bool keeps_angles(const Transform& t) {
+  const Vector3 x = t.vector({1, 0, 0}), y = t.vector({0, 1, 0}), z = t.vector({0, 0, 1});
+  const double square = dot(x, x), tolerance = 1e-4 * square;
+  return std::abs(dot(y, y) - square) < tolerance && std::abs(dot(z, z) - square) < tolerance &&
+         std::abs(dot(x, y)) < tolerance && std::abs(dot(y, z)) < tolerance && std::abs(dot(z, x)) < tolerance;
+}
+
 }  // namespace
+
+InfiniteLight Reader::infinite_light(ParameterList& p, const Transform& ctm) {
+  p.rename("mapname", "filename");
+  p.refuse({"point3 portal"}, "is not supported yet");
+  const std::string name = p.string("filename", "");
+  if (name.empty()) return {read_colour(p, "L", "illuminance", std::numbers::pi), {}, {}, 0};
+  for (const ParameterType type : {ParameterType::rgb, ParameterType::spectrum, ParameterType::blackbody})
+    if (const Parameter* colour = p.find(type, "L"))
+      p.value_error(*colour, 0, "has no place beside \"string filename\"; give a \"float scale\"");
+  if (!keeps_angles(ctm))
+    p.error(p.place(),
+            "the image of LightSource \"infinite\" may be turned and mirrored, but the current "
+            "transformation stretches it");
+  InfiniteLight light;
+  light.radiance = constant_spectrum(static_cast<float>(p.number("scale", 1, Range::at_least(0))));
+  light.filename = resolve(name);
+  light.world_from_light = ctm;
+  light.illuminance = std::max(0.0, p.number("illuminance", -1));
+  return light;
+}
 
 void Reader::light_source() {
   const std::string type = string_argument("a type");
@@ -70,13 +99,24 @@ void Reader::light_source() {
   } else if (type == "distant") {
     light.kind = read_distant(p, ctm);
   } else {
-    p.rename("mapname", "filename");
-    p.refuse({"string filename"}, "is not supported yet: the light of an environment is constant");
-    p.refuse({"point3 portal"}, "is not supported yet");
-    light.kind = InfiniteLight{read_colour(p, "L", "illuminance", std::numbers::pi)};
+    light.kind = infinite_light(p, ctm);
   }
   p.finish();
   scene_.lights.push_back(std::move(light));
+}
+
+void Reader::area_light_source() {
+  std::string type = string_argument("a type");
+  modernise(type, "area", "diffuse");
+  if (type != "diffuse") unknown_type(argument_, "AreaLightSource", type, {"diffuse"}, {});
+  ParameterList p = parameters("AreaLightSource \"diffuse\"", "light");
+  p.refuse({"string filename"}, "is not supported yet: area lights have one colour");
+  AreaLight light;
+  light.radiance = read_colour(p, "L", "", 1);
+  light.two_sided = p.boolean("twosided", false);
+  light.power = std::max(0.0, p.number("power", -1));
+  p.finish();
+  state_.area_light = light;
 }
 
 }  // namespace brume

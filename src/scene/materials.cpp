@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "scene/reader.h"
 
@@ -10,6 +11,108 @@ namespace brume {
 namespace {
 
 constexpr double max_shininess = 1e6;
+constexpr double least_index = 0.01, greatest_index = 100;
+
+// pbrt's metals, at the wavelengths that stand for red, green and blue: 617, 549 and 471 nm, photons of 2.01, 2.26 and
+// 2.63 eV. Rounded from P. B. Johnson and R. W. Christy, "Optical constants of the noble metals", Phys. Rev. B 6, 1972
+// (Ag, Au, Cu); A. D. Rakic, "Algorithm for the determination of intrinsic optical constants of metal films", Appl.
+// Opt. 34(22), 1995 (Al); J. R. DeVore, "Refractive indices of rutile and sphalerite", JOSA 41, 1951 (TiO2, ordinary
+// ray); R. E. Stephens and I. H. Malitson, "Index of refraction of magnesium oxide", J. Res. NBS 49, 1952 (MgO); for
+// brass, M. R. Querry's measurement as it is commonly given for red, green and blue.
+struct Metal {
+  std::string_view name;
+  Spectrum eta, k;
+};
+constexpr Metal metals[] = {{"Ag", {{0.06f, 0.06f, 0.05f}}, {{4.152f, 3.586f, 2.869f}}},
+                            {"Al", {{1.29f, 0.97f, 0.68f}}, {{7.43f, 6.65f, 5.67f}}},
+                            {"Au", {{0.21f, 0.43f, 1.31f}}, {{3.272f, 2.455f, 1.849f}}},
+                            {"Cu", {{0.30f, 1.02f, 1.25f}}, {{3.205f, 2.577f, 2.483f}}},
+                            {"CuZn", {{0.444f, 0.527f, 1.094f}}, {{3.695f, 2.765f, 1.829f}}},
+                            {"MgO", {{1.736f, 1.740f, 1.746f}}, {{0, 0, 0}}},
+                            {"TiO2", {{2.594f, 2.648f, 2.744f}}, {{0, 0, 0}}}};
+constexpr std::size_t copper = 3;
+
+// pbrt's glasses by their index at 587.6 nm, from their makers' data sheets: there is no dispersion.
+struct Glass {
+  std::string_view name;
+  float eta;
+};
+constexpr Glass glasses[] = {{"glass-BK7", 1.5168f},   {"glass-BAF10", 1.6700f}, {"glass-FK51A", 1.4866f},
+                             {"glass-LASF9", 1.8503f}, {"glass-F5", 1.6034f},    {"glass-F10", 1.6228f},
+                             {"glass-F11", 1.6206f}};
+
+// The name of the spectrum that the parameter gives, "" where it gives none by name.
+std::string spectrum_name(ParameterList& p, std::string_view parameter) {
+  const Parameter* found = p.find(ParameterType::spectrum, parameter);
+  return found && found->strings.size() == 1 ? found->strings[0] : "";
+}
+
+Spectrum read_complex_index(ParameterList& p, std::string_view parameter, Spectrum Metal::*part) {
+  const std::string name = spectrum_name(p, parameter);
+  if (name.empty()) return p.colour(parameter, metals[copper].*part, ColourUse::coefficient);
+  std::vector<std::string> names;
+  for (const Metal& metal : metals) {
+    if (name == fmt::format("metal-{}-{}", metal.name, parameter)) return metal.*part;
+    names.push_back(fmt::format("\"metal-{}-{}\"", metal.name, parameter));
+  }
+  p.value_error(
+      *p.find(ParameterType::spectrum, parameter), 0,
+      fmt::format("names the unknown spectrum \"{}\"; it can be {}", printable(name), enumerate(names, "or")));
+  return {};
+}
+
+void read_roughness(ParameterList& p) {
+  for (const std::string_view name : {"roughness", "uroughness", "vroughness"})
+    if (p.number(name, 0) != 0)
+      p.value_error(*p.find(ParameterType::float_, name), 0, "must be 0: rough surfaces are not supported yet");
+  p.ignore({"bool remaproughness"});
+}
+
+// A reflectance r at normal incidence is that of the index 1 + i k with k = 2 sqrt(r / (1 - r)).
+ConductorMaterial read_conductor(ParameterList& p) {
+  read_roughness(p);
+  ConductorMaterial m{constant_spectrum(1), {}};
+  if (!p.has(ParameterType::rgb, "reflectance") && !p.has(ParameterType::spectrum, "reflectance")) {
+    m.eta = read_complex_index(p, "eta", &Metal::eta);
+    m.k = read_complex_index(p, "k", &Metal::k);
+    return m;
+  }
+  p.refuse({"rgb eta", "rgb k", "spectrum eta", "spectrum k"}, "has no place beside its reflectance");
+  const Spectrum reflectance = p.colour("reflectance", {}, ColourUse::albedo);
+  for (int c = 0; c < channel_count; ++c) {
+    const float r = std::min(reflectance[c], 0.9999f);
+    m.k[c] = 2 * std::sqrt(r / (1 - r));
+  }
+  return m;
+}
+
+DielectricMaterial read_dielectric(ParameterList& p) {
+  p.rename("index", "eta");
+  read_roughness(p);
+  DielectricMaterial m;
+  if (!p.has(ParameterType::spectrum, "eta")) {
+    m.eta =
+        static_cast<float>(p.number("eta", static_cast<double>(m.eta), Range::from_to(least_index, greatest_index)));
+    return m;
+  }
+  const std::string name = spectrum_name(p, "eta");
+  if (name.empty()) {
+    m.eta = p.colour("eta", constant_spectrum(m.eta), ColourUse::coefficient)[0];
+    if (!(m.eta >= static_cast<float>(least_index) && m.eta <= static_cast<float>(greatest_index)))
+      p.value_error(*p.find(ParameterType::spectrum, "eta"), 1,
+                    fmt::format("must be from {} to {}, found {}", least_index, greatest_index, m.eta));
+    return m;
+  }
+  std::vector<std::string> names;
+  for (const Glass& glass : glasses) {
+    if (name == glass.name) return {glass.eta};
+    names.emplace_back(fmt::format("\"{}\"", glass.name));
+  }
+  p.value_error(
+      *p.find(ParameterType::spectrum, "eta"), 0,
+      fmt::format("names the unknown spectrum \"{}\"; it can be {}", printable(name), enumerate(names, "or")));
+  return m;
+}
 
 DiffuseMaterial read_diffuse(ParameterList& p) {
   p.rename("Kd", "reflectance");
@@ -43,12 +146,16 @@ MaterialDescription Reader::read_material(const std::string& given, const Place&
     material = read_diffuse(p);
   else if (type == "blinnphong")
     material = read_blinn_phong(p);
+  else if (type == "conductor")
+    material = read_conductor(p);
+  else if (type == "dielectric")
+    material = read_dielectric(p);
   else if (type == "interface")
     material = InterfaceMaterial{};
   else
-    unknown_type(type_place, "Material", type, {"diffuse", "blinnphong", "interface"},
-                 {"coateddiffuse", "conductor", "dielectric", "thindielectric", "coatedconductor",
-                  "diffusetransmission", "subsurface", "mix", "measured", "hair"});
+    unknown_type(type_place, "Material", type, {"diffuse", "blinnphong", "conductor", "dielectric", "interface"},
+                 {"coateddiffuse", "thindielectric", "coatedconductor", "diffusetransmission", "subsurface", "mix",
+                  "measured", "hair"});
   p.refuse({"texture displacement", "string normalmap", "float displacement"}, "is not supported yet");
   p.finish();
   return material;

@@ -81,7 +81,7 @@ void Reader::film() {
             fmt::format("{} x {} pixels are more than {}", scene_.film.width, scene_.film.height, max_pixels));
   scene_.film.save_fp16 = p.boolean("savefp16", true);
   p.ignore({"float diagonal"});
-  p.warn({"float cropwindow", "integer pixelbounds"}, "has no effect: the whole frame is rendered");
+  crop_window(p);
   p.warn({"float maxcomponentvalue", "float maxsampleluminance", "float scale"}, no_effect);
   if (p.number("iso", 100, Range::above(0)) != 100)
     messages_.warning(p.place_of(ParameterType::float_, "iso"),
@@ -92,6 +92,36 @@ void Reader::film() {
     messages_.warning(p.place_of(ParameterType::string, "sensor"),
                       fmt::format("the sensor \"{}\" has no effect; \"cie1931\" is used", printable(sensor)));
   p.finish();
+}
+
+// "cropwindow" in fractions of the picture, or "pixelbounds" in pixels, which the former overrides.
+void Reader::crop_window(ParameterList& p) {
+  FilmDescription& film = scene_.film;
+  if (const Parameter* bounds = p.find(ParameterType::integer, "pixelbounds")) {
+    const std::vector<std::int64_t>& v = bounds->integers;
+    if (v.size() != 4)
+      p.value_error(*bounds, 4, fmt::format("takes 4 integers, found {}", v.size()));
+    else if (!(0 <= v[0] && v[0] < v[1] && v[1] <= film.width && 0 <= v[2] && v[2] < v[3] && v[3] <= film.height))
+      p.value_error(*bounds, 0,
+                    fmt::format("must be x0 x1 y0 y1 with 0 <= x0 < x1 <= {} and 0 <= y0 < y1 <= {}, the size of the "
+                                "picture",
+                                film.width, film.height));
+    else
+      for (std::size_t i = 0; i < 4; ++i)
+        film.crop_window[i] = static_cast<double>(v[i]) / (i < 2 ? film.width : film.height);
+  }
+  const Parameter* window = p.find(ParameterType::float_, "cropwindow");
+  if (!window) return;
+  const std::vector<double>& v = window->numbers;
+  if (v.size() != 4) {
+    p.value_error(*window, 4, fmt::format("takes 4 numbers, found {}", v.size()));
+  } else if (!(0 <= v[0] && v[0] < v[1] && v[1] <= 1 && 0 <= v[2] && v[2] < v[3] && v[3] <= 1)) {
+    p.value_error(*window, 0, "must be x0 x1 y0 y1 with 0 <= x0 < x1 <= 1 and 0 <= y0 < y1 <= 1");
+  } else {
+    film.crop_window = {v[0], v[1], v[2], v[3]};
+    if (const PixelBox crop = cropped_pixels(film); crop.width() < 1 || crop.height() < 1)
+      p.value_error(*window, 0, fmt::format("holds no pixel of the {} x {} pixels", film.width, film.height));
+  }
 }
 
 void Reader::sampler() {

@@ -75,7 +75,7 @@ const std::vector<Reader::Directive>& Reader::directives() {
       {"MakeNamedMaterial", Block::world, &Reader::make_named_material},
       {"NamedMaterial", Block::world, &Reader::named_material},
       {"LightSource", Block::world, &Reader::light_source},
-      {"AreaLightSource", Block::world, &Reader::refused},
+      {"AreaLightSource", Block::world, &Reader::area_light_source},
       {"Texture", Block::world, &Reader::refused},
       {"ObjectBegin", Block::world, &Reader::refused},
       {"ObjectEnd", Block::world, &Reader::refused},

@@ -19,6 +19,7 @@ struct GraphicsState {
   bool reverse_orientation = false;
   std::string inside, outside;
   MaterialDescription material;
+  std::optional<AreaLight> area_light;
   // Default parameters by the target of the Attribute directive; shared, since they may be large.
   std::map<std::string, std::shared_ptr<const std::vector<Parameter>>> defaults;
 };
@@ -84,6 +85,7 @@ class Reader {
   void color_space();
   void option();
   void screen_window(ParameterList& parameters);
+  void crop_window(ParameterList& parameters);
 
   // The world.
   void make_named_medium();
@@ -93,6 +95,9 @@ class Reader {
   void make_named_material();
   void named_material();
   void light_source();
+  void area_light_source();
+  InfiniteLight infinite_light(ParameterList& p, const Transform& ctm);
+  TriangleMeshShape ply_mesh(ParameterList& p);
   MaterialDescription read_material(const std::string& given, const Place& type_place, ParameterList& p);
 
   // Arguments of directives; what is not there leaves the directive with an error.

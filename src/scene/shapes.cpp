@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "scene/read_ply.h"
 #include "scene/reader.h"
 
 namespace brume {
@@ -19,6 +20,29 @@ SphereShape read_sphere(ParameterList& p) {
   return {radius};
 }
 
+DiskShape read_disk(ParameterList& p) {
+  DiskShape disk;
+  disk.radius = p.number("radius", disk.radius, Range::above(0));
+  disk.height = p.number("height", disk.height);
+  disk.inner_radius = p.number("innerradius", disk.inner_radius, Range::at_least(0));
+  disk.phi_max = p.number("phimax", disk.phi_max, Range{0, 360, true, false});
+  if (disk.inner_radius >= disk.radius && disk.inner_radius > 0)
+    p.value_error(*p.find(ParameterType::float_, "innerradius"), 0,
+                  fmt::format("must be below the radius, {}, found {}", disk.radius, disk.inner_radius));
+  return disk;
+}
+
+CylinderShape read_cylinder(ParameterList& p) {
+  CylinderShape cylinder;
+  cylinder.radius = p.number("radius", cylinder.radius, Range::above(0));
+  const double a = p.number("zmin", cylinder.z_min), b = p.number("zmax", cylinder.z_max);
+  cylinder.z_min = std::min(a, b);
+  cylinder.z_max = std::max(a, b);
+  cylinder.phi_max = p.number("phimax", cylinder.phi_max, Range{0, 360, true, false});
+  if (a == b) p.error(p.place(), fmt::format("the cylinder has no height: zmin and zmax are both {}", a));
+  return cylinder;
+}
+
 QuadShape read_quad(ParameterList& p) {
   QuadShape quad;
   quad.origin = p.triple(ParameterType::point3, "origin", quad.origin);
@@ -29,28 +53,44 @@ QuadShape read_quad(ParameterList& p) {
   return quad;
 }
 
-// Triples of indices, each below the number of vertices. Three vertices without indices are one triangle.
-std::vector<std::array<std::uint32_t, 3>> read_indices(ParameterList& p, std::size_t vertices) {
+// Indices of faces of `corners` vertices each, all below the number of vertices. That many vertices without indices are
+// one face.
+template <std::size_t corners>
+std::vector<std::array<std::uint32_t, corners>> read_indices(ParameterList& p, std::size_t vertices,
+                                                             std::string_view rule) {
   const Parameter* indices = p.find(ParameterType::integer, "indices");
   if (!indices) {
-    if (vertices != 3) p.require(ParameterType::integer, "indices");
-    return {{0, 1, 2}};
+    if (vertices != corners) {
+      p.require(ParameterType::integer, "indices");
+      return {};
+    }
+    std::array<std::uint32_t, corners> face;
+    for (std::size_t i = 0; i < corners; ++i) face[i] = static_cast<std::uint32_t>(i);
+    return {face};
   }
   const std::vector<std::int64_t>& v = indices->integers;
-  if (v.size() % 3 != 0) {
-    p.value_error(*indices, 0, fmt::format("takes three indices a triangle, found {} in all", v.size()));
+  if (v.size() % corners != 0) {
+    p.value_error(*indices, 0, fmt::format("takes {}, found {} in all", rule, v.size()));
     return {};
   }
-  std::vector<std::array<std::uint32_t, 3>> triangles(v.size() / 3);
+  std::vector<std::array<std::uint32_t, corners>> faces(v.size() / corners);
   for (std::size_t i = 0; i < v.size(); ++i) {
     if (v[i] < 0 || v[i] >= static_cast<std::int64_t>(vertices)) {
       p.value_error(*indices, i,
                     fmt::format("must be from 0 to {}, the last of the points P, found {}", vertices - 1, v[i]));
       return {};
     }
-    triangles[i / 3][i % 3] = static_cast<std::uint32_t>(v[i]);
+    faces[i / corners][i % corners] = static_cast<std::uint32_t>(v[i]);
   }
-  return triangles;
+  return faces;
+}
+
+void read_normals(ParameterList& p, TriangleMeshShape& mesh) {
+  mesh.normals = p.triples(ParameterType::normal, "N");
+  if (!mesh.normals.empty() && !mesh.positions.empty() && mesh.normals.size() != mesh.positions.size())
+    p.value_error(*p.find(ParameterType::normal, "N"), 0,
+                  fmt::format("must have a normal for each of the {} points P, found {}", mesh.positions.size(),
+                              mesh.normals.size()));
 }
 
 TriangleMeshShape read_triangle_mesh(ParameterList& p) {
@@ -58,26 +98,68 @@ TriangleMeshShape read_triangle_mesh(ParameterList& p) {
   p.require(ParameterType::point3, "P");
   mesh.positions = p.triples(ParameterType::point3, "P");
   if (p.has(ParameterType::point3, "P"))
-    mesh.triangles = read_indices(p, mesh.positions.size());
+    mesh.triangles = read_indices<3>(p, mesh.positions.size(), "three indices a triangle");
   else
     p.ignore({"integer indices"});
-  mesh.normals = p.triples(ParameterType::normal, "N");
-  if (!mesh.normals.empty() && !mesh.positions.empty() && mesh.normals.size() != mesh.positions.size())
-    p.value_error(*p.find(ParameterType::normal, "N"), 0,
-                  fmt::format("must have a normal for each of the {} points P, found {}", mesh.positions.size(),
-                              mesh.normals.size()));
+  read_normals(p, mesh);
   p.ignore({"vector3 S", "point2 uv", "float uv", "point2 st", "float st", "integer faceIndices"});
+  return mesh;
+}
+
+// Patches with the corners (0, 0), (1, 0), (0, 1), (1, 1): flat ones, which two triangles fill.
+TriangleMeshShape read_bilinear_mesh(ParameterList& p) {
+  TriangleMeshShape mesh;
+  p.require(ParameterType::point3, "P");
+  mesh.positions = p.triples(ParameterType::point3, "P");
+  if (!p.has(ParameterType::point3, "P")) {
+    p.ignore({"integer indices"});
+  } else {
+    const auto patches = read_indices<4>(p, mesh.positions.size(), "four indices a patch");
+    for (std::size_t i = 0; i < patches.size(); ++i) {
+      const auto& v = patches[i];
+      const auto edge = [&](std::size_t k) { return mesh.positions[v[k]] - mesh.positions[v[0]]; };
+      const Vector3 normal = cross(edge(1), edge(2));
+      if (std::abs(dot(normal, edge(3))) > 1e-4 * length(normal) * length(edge(3))) {
+        p.error(p.place(), fmt::format("patch {} of Shape \"bilinearmesh\" is not flat; only flat ones are read", i));
+        break;
+      }
+      mesh.triangles.push_back({v[0], v[1], v[3]});
+      mesh.triangles.push_back({v[0], v[3], v[2]});
+    }
+  }
+  read_normals(p, mesh);
+  p.refuse({"string emissionfilename"}, "is not supported yet");
+  p.ignore({"point2 uv", "float uv", "integer faceIndices"});
   return mesh;
 }
 
 }  // namespace
 
+TriangleMeshShape Reader::ply_mesh(ParameterList& p) {
+  p.require(ParameterType::string, "filename");
+  const std::string name = p.string("filename", "");
+  p.refuse({"texture displacement"}, "is not supported yet");
+  p.ignore({"float edgelength"});
+  if (name.empty()) return {};
+  const Place place = p.place_of(ParameterType::string, "filename");
+  try {
+    PlyMesh ply = read_ply(resolve(name));
+    if (ply.skipped_faces > 0)
+      messages_.warning(place, fmt::format("\"{}\" has {} faces with neither three nor four corners; they are left out",
+                                           printable(name), ply.skipped_faces));
+    return std::move(ply.mesh);
+  } catch (const InputError& e) {
+    p.error(place, fmt::format("\"{}\" {}", printable(name), printable(e.diagnostics().front().message)));
+    return {};
+  }
+}
+
 void Reader::shape() {
   const std::string type = string_argument("a type");
-  const std::vector<std::string_view> types = {"sphere", "trianglemesh", "quad", "volume"};
+  const std::vector<std::string_view> types = {"sphere", "trianglemesh", "plymesh",  "bilinearmesh",
+                                               "quad",   "disk",         "cylinder", "volume"};
   if (std::find(types.begin(), types.end(), type) == types.end())
-    unknown_type(argument_, "Shape", type, types,
-                 {"cylinder", "disk", "plymesh", "bilinearmesh", "loopsubdiv", "curve"});
+    unknown_type(argument_, "Shape", type, types, {"loopsubdiv", "curve"});
   ParameterList p = parameters(fmt::format("Shape \"{}\"", type), "shape");
 
   ShapeDescription shape;
@@ -96,9 +178,18 @@ void Reader::shape() {
   shape.reverse_orientation = state_.reverse_orientation;
   shape.material = state_.material;
   shape.outside = state_.outside;
+  if (!std::holds_alternative<InterfaceMaterial>(shape.material)) {
+    shape.light = state_.area_light;
+  } else if (state_.area_light) {
+    messages_.warning(directive_.place, "AreaLightSource has no effect on a shape whose material is \"interface\"");
+  }
   if (type == "sphere") shape.kind = read_sphere(p);
   if (type == "quad") shape.kind = read_quad(p);
+  if (type == "disk") shape.kind = read_disk(p);
+  if (type == "cylinder") shape.kind = read_cylinder(p);
   if (type == "trianglemesh") shape.kind = read_triangle_mesh(p);
+  if (type == "bilinearmesh") shape.kind = read_bilinear_mesh(p);
+  if (type == "plymesh") shape.kind = ply_mesh(p);
   if (p.number("alpha", 1) != 1)
     p.value_error(*p.find(ParameterType::float_, "alpha"), 0, "must be 1: cut-outs are not supported yet");
   p.finish();

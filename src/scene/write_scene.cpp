@@ -104,6 +104,8 @@ class Writer {
     const FilmDescription& film = scene.film;
     line("Film \"rgb\" \"integer xresolution\" {} \"integer yresolution\" {}", film.width, film.height);
     line("  \"string filename\" {} \"bool savefp16\" {}", quoted(film.filename), film.save_fp16);
+    if (film.crop_window != FilmDescription{}.crop_window)
+      line("  \"float cropwindow\" [{}]", fmt::join(film.crop_window, " "));
     line("Sampler \"{}\" \"integer pixelsamples\" {} \"integer seed\" {}",
          scene.sampler.kind == SamplerDescription::Kind::zsobol ? "zsobol" : "independent", scene.sampler.pixel_samples,
          scene.sampler.seed);
@@ -181,8 +183,16 @@ class Writer {
     colour("L", l.radiance);
   }
   void light_kind(const InfiniteLight& l) {
-    line("LightSource \"infinite\"");
-    colour("L", l.radiance);
+    if (l.filename.empty()) {
+      line("LightSource \"infinite\"");
+      colour("L", l.radiance);
+      return;
+    }
+    const bool moved = !is_identity(l.world_from_light);
+    if (moved) begin_moved(l.world_from_light);
+    line("LightSource \"infinite\" \"string filename\" {} \"float scale\" {}", quoted(l.filename), l.radiance[0]);
+    if (l.illuminance > 0) line("  \"float illuminance\" {}", l.illuminance);
+    if (moved) end_block();
   }
 
   void shape(const ShapeDescription& s) {
@@ -193,6 +203,7 @@ class Writer {
       if (!is_identity(s.world_from_object)) matrix(s.world_from_object);
       if (s.reverse_orientation) line("ReverseOrientation");
       std::visit([&](const auto& m) { material(m); }, s.material);
+      if (s.light) area_light(*s.light);
     }
     std::visit([&](const auto& kind) { shape_kind(kind); }, s.kind);
     end_block();
@@ -209,11 +220,31 @@ class Writer {
     colour("reflection", m.reflection);
   }
   void material(const InterfaceMaterial&) { line("Material \"interface\""); }
+  void material(const ConductorMaterial& m) {
+    line("Material \"conductor\"");
+    colour("eta", m.eta);
+    colour("k", m.k);
+  }
+  void material(const DielectricMaterial& m) { line("Material \"dielectric\" \"float eta\" {}", m.eta); }
+
+  void area_light(const AreaLight& l) {
+    line("AreaLightSource \"diffuse\" \"bool twosided\" {}", l.two_sided);
+    colour("L", l.radiance);
+    if (l.power > 0) line("  \"float power\" {}", l.power);
+  }
 
   void shape_kind(const SphereShape& s) { line("Shape \"sphere\" \"float radius\" {}", s.radius); }
   void shape_kind(const QuadShape& s) {
     line("Shape \"quad\" \"point3 origin\" [{}]", numbers(s.origin));
     line("  \"vector3 edgeu\" [{}] \"vector3 edgev\" [{}]", numbers(s.edge_u), numbers(s.edge_v));
+  }
+  void shape_kind(const DiskShape& s) {
+    line("Shape \"disk\" \"float radius\" {} \"float height\" {} \"float innerradius\" {} \"float phimax\" {}",
+         s.radius, s.height, s.inner_radius, s.phi_max);
+  }
+  void shape_kind(const CylinderShape& s) {
+    line("Shape \"cylinder\" \"float radius\" {} \"float zmin\" {} \"float zmax\" {} \"float phimax\" {}", s.radius,
+         s.z_min, s.z_max, s.phi_max);
   }
   void shape_kind(const TriangleMeshShape& s) {
     line("Shape \"trianglemesh\"");

@@ -49,12 +49,13 @@ struct DescribeLight {
     return fmt::format("distant, towards {}, radiance {}", text(l.direction_to_light), text(l.radiance));
   }
   std::string operator()(const InfiniteLight& l) const {
+    if (!l.filename.empty()) return fmt::format("infinite, image {} times {}", l.filename, text(l.radiance));
     return fmt::format("infinite, radiance {}", text(l.radiance));
   }
 };
 
 std::string describe_shapes(const std::vector<ShapeDescription>& shapes) {
-  constexpr std::array names{"sphere", "triangle mesh", "quad", "volume"};
+  constexpr std::array names{"sphere", "triangle mesh", "quad", "disk", "cylinder", "volume"};
   static_assert(names.size() == std::variant_size_v<decltype(ShapeDescription::kind)>);
   std::array<int, names.size()> counts{};
   for (const ShapeDescription& shape : shapes) ++counts[shape.kind.index()];
@@ -95,7 +96,7 @@ std::string describe_picture(const std::string& path) {
     lines += fmt::format("  {} samples per pixel in {:.1f} s, seed {}\n", m.samples_per_pixel, m.render_time_seconds,
                          m.seed);
   if (!image.variance.empty()) lines += "  with the variance of each pixel\n";
-  if (m.partial) lines += "  partial: the render was stopped before its end\n";
+  if (m.partial) lines += "  partial: not all of the samples asked for\n";
   return lines;
 }
 

@@ -44,39 +44,73 @@ class Warnings {
 
 CompiledScene compile_scene(const SceneDescription& description, int threads, Warnings& warnings) {
   const std::string& name = description.integrator.name;
-  if (name != "classic" && name != "reference")
-    warnings.add(
-        fmt::format("warning: integrator \"{}\" is not built yet; rendering with \"reference\", a path tracer that "
-                    "takes longer for the same picture",
-                    name));
+  if (name != "classic" && name != "reference" && name != "volpath")
+    warnings.add(fmt::format("warning: there is no integrator \"{}\" here; rendering with \"volpath\"", name));
   std::vector<Diagnostic> found;
   CompiledScene compiled = compile(description, threads, found);
   for (const Diagnostic& warning : found) warnings.add(to_string(warning));
   return compiled;
 }
 
-// Renders all samples in passes of 1, 1, 2, 4, 8, 8, ...: a picture that is stopped early has had nearly the same
-// number in every pixel, and longer passes would only make stopping slower. False where on_progress said to stop.
-bool render_samples(Backend& backend, int samples, const RenderOptions& options, Film& film) {
-  const Stopwatch watch;
-  const auto report = [&](double fraction) {
-    if (!options.on_progress) return true;
-    Progress progress{fraction, watch.seconds(), -1};
-    // Before half a second has passed an extrapolation would say little.
-    if (fraction > 0 && progress.elapsed_seconds > 0.5)
-      progress.remaining_seconds = progress.elapsed_seconds * (1 - fraction) / fraction;
-    return options.on_progress(progress);
-  };
-  if (!report(0)) return false;
-  for (int first = 0; first < samples;) {
-    const int pass = std::min({std::max(first, 1), 8, samples - first});
-    const auto keep_going = [&](double fraction) { return report((first + fraction * pass) / samples); };
-    if (!backend.render(first, first + pass, thread_count(options.threads), film, keep_going)) return false;
-    first += pass;
+constexpr double partial_picture_interval = 3;  // seconds
+
+// Adds samples to a film, pass by pass, until there are enough or the time is used.
+class Passes {
+ public:
+  Passes(const RenderOptions& options, const Stopwatch& since_call, int samples)
+      : options_(options), since_call_(since_call), samples_(samples) {}
+
+  // Passes of 1, 1, 2, 4, 8, 8, ... samples: a picture that is stopped early has had nearly the same number in every
+  // pixel, and longer passes would only make stopping slower. Calls after_pass() between them. False where on_progress
+  // said to stop.
+  template <class AfterPass>
+  bool render(Backend& backend, Film& film, AfterPass&& after_pass) {
+    if (!report(0)) return false;
+    for (int done = 0; done < samples_;) {
+      const int pass = next_pass(done);
+      if (pass == 0) break;
+      const auto keep_going = [&](double fraction) { return report(done + fraction * pass); };
+      if (!backend.render(done, done + pass, thread_count(options_.threads), film, keep_going)) return false;
+      done += pass;
+      if (done < samples_) after_pass();
+    }
+    report(samples_);
+    return true;
   }
-  report(1);
-  return true;
-}
+
+ private:
+  // How many samples to add to the `done` ones; 0 where not one more fits in the time.
+  int next_pass(int done) const {
+    int pass = std::min({std::max(done, 1), 8, samples_ - done});
+    if (done == 0) return pass;
+    const double seconds_per_sample = std::max(since_first_.seconds() / done, 1e-9);
+    const auto limit = [&](double seconds) {
+      pass = static_cast<int>(std::min<double>(pass, seconds / seconds_per_sample));
+    };
+    if (options_.on_partial_picture) limit(std::max(partial_picture_interval, seconds_per_sample));
+    if (options_.seconds > 0) limit(std::max(0.0, options_.seconds - since_call_.seconds()));
+    return pass;
+  }
+
+  bool report(double samples_done) const {
+    if (!options_.on_progress) return true;
+    Progress progress{samples_done / samples_, since_first_.seconds(), -1};
+    // Before half a second has passed an extrapolation would say little.
+    if (samples_done > 0 && progress.elapsed_seconds > 0.5)
+      progress.remaining_seconds = progress.elapsed_seconds * (1 - progress.fraction) / progress.fraction;
+    if (options_.seconds > 0 && samples_done > 0) {
+      const double used = std::min(1.0, since_call_.seconds() / options_.seconds), left = (1 - used) * options_.seconds;
+      if (progress.remaining_seconds < 0 || left < progress.remaining_seconds) progress.remaining_seconds = left;
+      progress.fraction = std::max(progress.fraction, used);
+    }
+    return options_.on_progress(progress);
+  }
+
+  const RenderOptions& options_;
+  const Stopwatch& since_call_;
+  const Stopwatch since_first_;
+  int samples_;
+};
 
 // Camera space to [0, 1] across the picture: the inverse of what CompiledCamera says of its rays. The third row makes
 // the matrix invertible; its result has no meaning.
@@ -98,6 +132,12 @@ ImageMetadata make_metadata(const CompiledScene& scene, const SceneDescription& 
   metadata.camera_from_world = inverse(scene.camera.world_from_camera);
   metadata.ndc_from_world = ndc_from_world(scene, metadata.camera_from_world);
   metadata.seed = scene.seed;
+  if (picture.width != scene.width || picture.height != scene.height) {
+    metadata.x = scene.crop.x0;
+    metadata.y = scene.crop.y0;
+    metadata.whole_width = scene.width;
+    metadata.whole_height = scene.height;
+  }
   metadata.partial = picture.partial;
   // Rounding to halves would be noise that the variance does not tell of.
   metadata.half = description.film.save_fp16 && picture.variance.empty();
@@ -105,36 +145,52 @@ ImageMetadata make_metadata(const CompiledScene& scene, const SceneDescription& 
   return metadata;
 }
 
-Picture render_description(const SceneDescription& description, const RenderOptions& options) {
-  const Stopwatch watch;
-  Warnings warnings(options);
-  apply_instruction_set_choice();
-  if (options.variance && description.sampler.pixel_samples < 2)
-    throw Error("the variance can be estimated from two samples per pixel on, not from one");
-  const CompiledScene scene = compile_scene(description, thread_count(options.threads), warnings);
-  const std::unique_ptr<Backend> backend = make_cpu_backend();
-  backend->prepare(scene);
-  Film film(scene.width, scene.height);
-
+Picture make_picture(const Film& film, const CompiledScene& scene, const SceneDescription& description,
+                     const RenderOptions& options, double seconds, bool partial) {
   Picture picture;
-  picture.partial = !render_samples(*backend, scene.samples_per_pixel, options, film);
   Image image = film.image();
   picture.width = image.width;
   picture.height = image.height;
   picture.pixels = std::move(image.pixels);
   if (options.variance) picture.variance = film.variance();
   picture.samples_per_pixel = film.samples_per_pixel();
+  picture.partial = partial;
+  picture.seconds = seconds;
   picture.invalid_samples = film.invalid_samples();
+  picture.metadata =
+      std::make_shared<const Picture::Metadata>(Picture::Metadata{make_metadata(scene, description, picture)});
+  return picture;
+}
+
+Picture render_description(const SceneDescription& description, const RenderOptions& options) {
+  const Stopwatch watch;
+  Warnings warnings(options);
+  apply_instruction_set_choice();
+  const int samples = options.seconds > 0 ? options.max_samples : description.sampler.pixel_samples;
+  if (options.variance && samples < 2)
+    throw Error("the variance can be estimated from two samples per pixel on, not from one");
+  const CompiledScene scene = compile_scene(description, thread_count(options.threads), warnings);
+  const std::unique_ptr<Backend> backend = make_cpu_backend();
+  backend->prepare(scene);
+  Film film(scene.crop.width(), scene.crop.height());
+
+  const auto picture_now = [&](bool partial) {
+    return make_picture(film, scene, description, options, watch.seconds(), partial);
+  };
+  double shown = -partial_picture_interval;  // when the last partial picture was shown
+  const bool finished = Passes(options, watch, samples).render(*backend, film, [&] {
+    if (!options.on_partial_picture || watch.seconds() < shown + partial_picture_interval) return;
+    options.on_partial_picture(picture_now(true));
+    shown = watch.seconds();
+  });
+  Picture picture = picture_now(!finished);
   if (backend->majorant_violations() > 0)
     warnings.add(
         fmt::format("warning: {} densities exceeded the bound that tracking relies on; the picture is biased, and "
                     "this is a fault in Brume",
                     backend->majorant_violations()));
-  picture.seconds = watch.seconds();
   if (picture.invalid_samples > 0)
     warnings.add(fmt::format("warning: {} samples were not finite numbers and were left out", picture.invalid_samples));
-  picture.metadata =
-      std::make_shared<const Picture::Metadata>(Picture::Metadata{make_metadata(scene, description, picture)});
   picture.warnings = warnings.take();
   return picture;
 }

@@ -25,6 +25,16 @@ void check_resolution(int width, int height) {
                             width, height, max_edge, max_pixels));
 }
 
+void check_crop_window(const FilmDescription& film) {
+  const auto [x0, x1, y0, y1] = film.crop_window;
+  if (!(0 <= x0 && x0 < x1 && x1 <= 1 && 0 <= y0 && y0 < y1 && y1 <= 1))
+    throw Error(fmt::format("crop window {},{},{},{}: must be x0,x1,y0,y1 with 0 <= x0 < x1 <= 1 and 0 <= y0 < y1 <= 1",
+                            x0, x1, y0, y1));
+  if (const PixelBox crop = cropped_pixels(film); crop.width() < 1 || crop.height() < 1)
+    throw Error(fmt::format("crop window {},{},{},{} holds no pixel of the {} x {} pixels", x0, x1, y0, y1, film.width,
+                            film.height));
+}
+
 void check_integrator(const std::string& name) {
   if (std::find(std::begin(integrator_names), std::end(integrator_names), name) != std::end(integrator_names)) return;
   const std::string_view nearest = nearest_name(name, integrator_names);
@@ -79,19 +89,22 @@ Scene Scene::example() { return Scene(std::make_unique<Contents>(Contents{exampl
 
 void Scene::apply(const SceneOptions& options) {
   SceneDescription& scene = contents_->description;
-  const int width = options.width.value_or(scene.film.width), height = options.height.value_or(scene.film.height);
-  if (options.width || options.height) check_resolution(width, height);
+  FilmDescription film = scene.film;
+  film.width = options.width.value_or(film.width);
+  film.height = options.height.value_or(film.height);
+  film.crop_window = options.crop_window.value_or(film.crop_window);
+  if (options.width || options.height) check_resolution(film.width, film.height);
+  check_crop_window(film);
   const int samples = options.samples_per_pixel.value_or(scene.sampler.pixel_samples);
   if (options.samples_per_pixel && (samples < 1 || samples > max_samples))
     throw Error(fmt::format("{} samples per pixel are out of range: from 1 to {}", samples, max_samples));
   if (options.integrator) check_integrator(*options.integrator);
 
-  scene.film.width = width;
-  scene.film.height = height;
+  scene.film = std::move(film);
   scene.sampler.pixel_samples = samples;
   if (options.seed) scene.sampler.seed = *options.seed;
   if (options.integrator) scene.integrator.name = *options.integrator;
-  if (contents_->framing) scene.camera.fov = fov_for(*contents_->framing, width, height);
+  if (contents_->framing) scene.camera.fov = fov_for(*contents_->framing, scene.film.width, scene.film.height);
 }
 
 std::string Scene::text() const {

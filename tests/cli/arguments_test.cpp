@@ -21,9 +21,10 @@ TEST(Arguments, HelpFitsOnAScreen) {
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.error, IsEmpty());
   EXPECT_LE(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 30);
-  for (const char* word :
-       {"--output", "--spp", "--seed", "--nthreads", "--resolution", "--integrator", "--grid", "--write-scene",
-        "--variance", "--quiet", "--version", "--example", "brume info", "brume compare", "BRUME_ISA", ".pfm"})
+  for (const char* word : {"--output",    "--spp",         "--time",        "--cropwindow", "--write-partial-images",
+                           "brume bench", "--seed",        "--nthreads",    "--resolution", "--integrator",
+                           "--grid",      "--write-scene", "--variance",    "--quiet",      "--version",
+                           "--example",   "brume info",    "brume compare", "BRUME_ISA",    ".pfm"})
     EXPECT_THAT(outcome.out, HasSubstr(word));
   EXPECT_EQ(run(folder.path(), {"render", "--help"}).out, outcome.out);
   EXPECT_THAT(run(folder.path(), {"info", "--help"}).out, StartsWith("Usage: brume info FILE"));
@@ -61,12 +62,21 @@ TEST(Arguments, MistakesAreNamedAndNothingIsWritten) {
       {{"a.pbrt", "--spp", "-5"}, "--spp: \"-5\""},
       {{"a.pbrt", "--spp", "4.5"}, "--spp: \"4.5\""},
       {{"a.pbrt", "--spp", "99999999999999999999"}, "--spp"},
+      {{"a.pbrt", "--time", "0"}, "--time: \"0\" is not a number of seconds above 0"},
+      {{"a.pbrt", "--time", "soon"}, "--time: \"soon\""},
+      {{"a.pbrt", "--time", "nan"}, "--time: \"nan\""},
       {{"a.pbrt", "--seed", "-1"}, "--seed: \"-1\" is not a whole number from 0 to 4294967295"},
       {{"a.pbrt", "--nthreads", "many"}, "--nthreads: \"many\""},
       {{"a.pbrt", "--resolution", "0x0"}, "--resolution: width: \"0\""},
       {{"a.pbrt", "--resolution", "16x-1"}, "--resolution: height: \"-1\""},
       {{"a.pbrt", "--resolution", "640"}, "is not WIDTHxHEIGHT"},
       {{"a.pbrt", "--resolution", "65536x65536"}, "65536x65536 is out of range"},
+      {{"a.pbrt", "--cropwindow", "0,1,0"}, "is not X0,X1,Y0,Y1"},
+      {{"a.pbrt", "--cropwindow", "0,1,0,1,"}, "is not X0,X1,Y0,Y1"},
+      {{"a.pbrt", "--cropwindow", "0,1,0,nan"}, "0 <= y0 < y1 <= 1"},
+      {{"a.pbrt", "--cropwindow", "0.5,0.5,0,1"}, "0 <= x0 < x1 <= 1"},
+      {{"a.pbrt", "--cropwindow", "0,1.5,0,1"}, "crop window 0,1.5,0,1"},
+      {{"a.pbrt", "--cropwindow", "0.01,0.02,0,1"}, "holds no pixel of the 16 x 12"},
       {{"a.pbrt", "--integrator", "clasic"}, "did you mean \"classic\"?"},
       {{"a.pbrt", "--grid", "density"}, "a.pbrt: error: not a volume file"},
       {{"a.pbrt", "--example"}, "--example takes no scene"},

@@ -1,4 +1,5 @@
-// Ctrl-C and SIGTERM: what is rendered so far is saved and marked, and the exit code says so.
+// Ctrl-C and SIGTERM: what is rendered so far is saved and marked, and the exit code says so. Pictures so far are saved
+// without them too, where that is asked for.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,10 +17,11 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-// More samples than any machine takes in a test's time.
-std::vector<std::string> endless(const std::string& output) {
-  return {"a.pbrt", "--spp", "16000000", "--integrator", "path", "-o", output};
-}
+using Arguments = std::vector<std::string>;
+
+// More samples, or more time, than a test has.
+const Arguments many_samples = {"a.pbrt", "--spp", "16000000", "--integrator", "path", "-o", "b.exr"};
+const Arguments much_time = {"a.pbrt", "--time", "1e6", "--integrator", "path", "-o", "b.exr"};
 
 // The warning about the integrator comes when rendering is about to begin.
 void wait_for_start(const RunningProgram& program) {
@@ -28,10 +30,10 @@ void wait_for_start(const RunningProgram& program) {
   std::this_thread::sleep_for(std::chrono::milliseconds(1500));
 }
 
-void expect_partial_picture(int signal) {
+void expect_partial_picture(const Arguments& arguments, int signal) {
   const TemporaryFolder folder;
   write_small_scene(folder.file("a.pbrt"));
-  RunningProgram program(folder.path(), endless("b.exr"));
+  RunningProgram program(folder.path(), arguments);
   ASSERT_NO_FATAL_FAILURE(wait_for_start(program));
   program.send(signal);
   const Outcome outcome = program.wait();
@@ -48,8 +50,29 @@ void expect_partial_picture(int signal) {
   EXPECT_GT(image.pixels.back(), 0);
 }
 
-TEST(Interrupt, SigintSavesWhatThereIs) { expect_partial_picture(SIGINT); }
-TEST(Interrupt, SigtermSavesWhatThereIs) { expect_partial_picture(SIGTERM); }
+TEST(Interrupt, SigintSavesWhatThereIs) { expect_partial_picture(many_samples, SIGINT); }
+TEST(Interrupt, SigtermSavesWhatThereIs) { expect_partial_picture(much_time, SIGTERM); }
+
+// A program that is killed has left the picture of some seconds ago. The twin, not asked for it, has left nothing.
+TEST(Interrupt, PartialImagesAreThereWhileItRenders) {
+  for (const bool asked : {true, false}) {
+    const TemporaryFolder folder;
+    write_small_scene(folder.file("a.pbrt"));
+    Arguments arguments = many_samples;
+    if (asked) arguments.push_back("--write-partial-images");
+    {
+      RunningProgram program(folder.path(), arguments);
+      ASSERT_NO_FATAL_FAILURE(wait_for_start(program));
+      program.send(SIGKILL);
+    }
+    ASSERT_EQ(folder.names().size(), asked ? 2u : 1u);
+    if (!asked) continue;
+    const ImageMetadata metadata = read_image_metadata(folder.file("b.exr"));
+    EXPECT_TRUE(metadata.partial);
+    EXPECT_GT(metadata.samples_per_pixel, 0);
+    EXPECT_GT(read_image(folder.file("b.exr")).pixels.front(), 0);
+  }
+}
 
 }  // namespace
 }  // namespace brume

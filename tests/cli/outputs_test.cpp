@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdio>
+
 #include "cli/run_program.h"
 #include "image/image.h"
 #include "image/temporary_folder.h"
@@ -12,6 +14,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 class Outputs : public testing::Test {
  protected:
@@ -70,6 +73,51 @@ TEST_F(Outputs, TheSameBitsForAnyNumberOfThreads) {
   EXPECT_NE(bytes("one.pfm"), bytes("other seed.pfm"));
 }
 
+// As many samples as fit, and the bits of a render with that number. The twin has one more.
+TEST_F(Outputs, ATimeGivesThePictureOfItsNumberOfSamples) {
+  expect_success({"a.pbrt", "--time", "0.3", "-o", "timed.pfm"});
+  int samples = 0;
+  ASSERT_EQ(std::sscanf(error_.c_str(), "timed.pfm: 16 x 12 pixels, %d samples per pixel, 0:0", &samples), 1) << error_;
+  EXPECT_GE(samples, 1);
+  expect_success({"a.pbrt", "--spp", std::to_string(samples), "-o", "counted.pfm"});
+  EXPECT_EQ(bytes("timed.pfm"), bytes("counted.pfm"));
+  expect_success({"a.pbrt", "--spp", std::to_string(samples + 1), "-o", "one more.pfm"});
+  EXPECT_NE(bytes("timed.pfm"), bytes("one more.pfm"));
+  expect_success({"a.pbrt", "--time", "1e6", "--spp", "3", "-o", "limited.pfm"});
+  EXPECT_THAT(error_, HasSubstr("3 samples per pixel"));
+}
+
+// Shorter than any render: each pixel has a sample nevertheless.
+TEST_F(Outputs, TheShortestTimeGivesOneSample) {
+  expect_success({"a.pbrt", "--time", "1e-9", "-o", "timed.pfm"});
+  EXPECT_THAT(error_, HasSubstr("1 samples per pixel"));
+}
+
+// By the command line and by the scene, which is written with it.
+TEST_F(Outputs, ACropWindowHasThePixelsOfTheWholePicture) {
+  expect_success({"a.pbrt", "-o", "whole.pfm"});
+  const std::vector<std::string> crop = {"a.pbrt", "--cropwindow", "0.25,0.7,0.5,1", "-o",    "part.pfm",
+                                         "-o",     "part.exr",     "--write-scene",  "b.pbrt"};
+  expect_success(crop);
+  EXPECT_THAT(error_, HasSubstr("part.pfm: 8 x 6 pixels, "));
+  const Image whole = read_image(folder_.file("whole.pfm")), part = read_image(folder_.file("part.pfm"));
+  ASSERT_EQ(part.width, 8);  // from ceil(0.25 * 16) to ceil(0.7 * 16)
+  ASSERT_EQ(part.height, 6);
+  for (int y = 0; y < part.height; ++y)
+    for (int x = 0; x < part.width; ++x)
+      EXPECT_EQ(part.pixels[static_cast<std::size_t>(3 * (y * part.width + x))],
+                whole.pixels[static_cast<std::size_t>(3 * ((y + 6) * whole.width + x + 4))]);
+  const ImageMetadata metadata = read_image_metadata(folder_.file("part.exr"));
+  EXPECT_EQ(metadata.x, 4);
+  EXPECT_EQ(metadata.y, 6);
+  EXPECT_EQ(metadata.whole_width, 16);
+  EXPECT_EQ(metadata.whole_height, 12);
+  expect_success({"b.pbrt", "-o", "again.pfm"});
+  EXPECT_EQ(bytes("again.pfm"), bytes("part.pfm"));
+  expect_success({"b.pbrt", "--cropwindow", "0,1,0,1", "-o", "again.pfm"});
+  EXPECT_EQ(bytes("again.pfm"), bytes("whole.pfm"));
+}
+
 TEST_F(Outputs, OtherInstructionSetsRender) {
   expect_success({"a.pbrt", "-o", "best.pfm"});
   expect_success({"a.pbrt", "-o", "scalar.pfm"}, {{"BRUME_ISA", "scalar"}});
@@ -92,11 +140,12 @@ TEST_F(Outputs, TheWrittenExampleGivesTheSameBits) {
   EXPECT_EQ(bytes("a.pfm"), bytes("b.pfm"));
 }
 
-TEST_F(Outputs, FallsBackToReferenceWithOneWarning) {
-  expect_success({"a.pbrt", "--integrator", "volpath", "-o", "b.pfm"});
-  EXPECT_THAT(error_, HasSubstr("integrator \"volpath\" is not built yet"));
-  EXPECT_EQ(error_.find("volpath"), error_.rfind("volpath"));
-  expect_success({"a.pbrt", "--integrator", "reference", "-o", "a.pfm"});
+TEST_F(Outputs, FallsBackToVolpathWithOneWarning) {
+  expect_success({"a.pbrt", "--integrator", "bdpt", "-o", "b.pfm"});
+  EXPECT_THAT(error_, HasSubstr("there is no integrator \"bdpt\""));
+  EXPECT_EQ(error_.find("bdpt"), error_.rfind("bdpt"));
+  expect_success({"a.pbrt", "--integrator", "volpath", "-o", "a.pfm"});
+  EXPECT_THAT(error_, Not(HasSubstr("warning")));
   EXPECT_EQ(bytes("a.pfm"), bytes("b.pfm"));
 }
 

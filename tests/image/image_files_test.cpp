@@ -120,6 +120,37 @@ TEST(ImageFiles, ExrMatricesActOnRowVectors) {
   EXPECT_NEAR(p_camera.z, expected.z, 1e-6);
 }
 
+// A part of a larger picture says where it lies; the others are whole.
+TEST(ImageFiles, ExrOfAPartHasItsPlace) {
+  const TemporaryFolder folder;
+  Image image = test_image(3, 20);
+  image.variance = image.pixels;
+  ImageMetadata metadata = test_metadata();
+  metadata.x = 5;
+  metadata.y = 7;
+  metadata.whole_width = 64;
+  metadata.whole_height = 48;
+  for (const bool half : {false, true}) {
+    metadata.half = half;
+    write_image(folder.file("a.exr"), image, metadata);
+    const Imf::InputFile file(folder.file("a.exr").c_str());
+    EXPECT_EQ(file.header().displayWindow(), Imath::Box2i({0, 0}, {63, 47}));
+    EXPECT_EQ(file.header().dataWindow(), Imath::Box2i({5, 7}, {7, 26}));
+    const Image back = read_image(folder.file("a.exr"));
+    EXPECT_EQ(back.width, 3);
+    EXPECT_EQ(back.height, 20);
+    EXPECT_EQ(back.variance, image.variance);
+    EXPECT_FLOAT_EQ(back.pixels.back(), half ? 1.7402344f : image.pixels.back());
+    const ImageMetadata read = read_image_metadata(folder.file("a.exr"));
+    EXPECT_EQ(read.x, 5);
+    EXPECT_EQ(read.y, 7);
+    EXPECT_EQ(read.whole_width, 64);
+    EXPECT_EQ(read.whole_height, 48);
+  }
+  write_image(folder.file("b.exr"), image, test_metadata());
+  EXPECT_EQ(read_image_metadata(folder.file("b.exr")).whole_width, 0);
+}
+
 TEST(Srgb, MatchesTheStandard) {
   EXPECT_EQ(srgb_from_linear(0), 0);
   EXPECT_EQ(srgb_from_linear(1), 255);

@@ -71,6 +71,18 @@ TEST(FunctionAccuracy, SincosTurns) {
   EXPECT_GT(worst, 3e-8);
 }
 
+TEST(FunctionAccuracy, AtanTurns) {
+  double worst = 0;
+  for_floats(1e-20f, 1e20f, 397, [&](float x) {
+    const double exact = std::atan(static_cast<double>(x)) / (2 * std::numbers::pi);
+    worst = std::max(
+        {worst, std::abs(kernel::atan_turns(x) - exact) / exact, std::abs(kernel::atan_turns(-x) + exact) / exact});
+  });
+  EXPECT_LE(worst, 3e-7);
+  EXPECT_GT(worst, 3e-8);
+  EXPECT_EQ(kernel::atan_turns(0.0f), 0.0f);
+}
+
 TEST(FunctionAccuracy, PowPositive) {
   double worst = 0;
   for (std::uint32_t i = 0; i < 2000000; ++i) {

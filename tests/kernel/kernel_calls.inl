@@ -10,6 +10,7 @@ inline BrickGrid call_grid(const TestGrid& g) { return {g.table, g.words, g.tabl
 inline void call_log_natural(const F* in, F* out, const TestGrid&) { out[0] = log_natural(in[0]); }
 inline void call_exp_natural(const F* in, F* out, const TestGrid&) { out[0] = exp_natural(in[0]); }
 inline void call_sincos_turns(const F* in, F* out, const TestGrid&) { sincos_turns(in[0], out[0], out[1]); }
+inline void call_atan_turns(const F* in, F* out, const TestGrid&) { out[0] = atan_turns(in[0]); }
 inline void call_pow_positive(const F* in, F* out, const TestGrid&) { out[0] = pow_positive(in[0], in[1]); }
 inline void call_beer_lambert(const F* in, F* out, const TestGrid&) { out[0] = beer_lambert(in[0]); }
 inline void call_mean_transmittance(const F* in, F* out, const TestGrid&) { out[0] = mean_transmittance(in[0]); }
@@ -20,6 +21,13 @@ inline void call_random_bits(const F* in, F* out, const TestGrid&) {
   const U bits = random_bits(float_bits(in[0]), float_bits(in[1]), float_bits(in[2]), float_bits(in[3]));
   out[0] = bits_float(bits);
   out[1] = uniform_from_bits(bits);
+}
+inline void call_random_words(const F* in, F* out, const TestGrid&) {
+  const RandomWords r = random_words(float_bits(in[0]), float_bits(in[1]), float_bits(in[2]), float_bits(in[3]));
+  out[0] = bits_float(r.x);
+  out[1] = bits_float(r.y);
+  out[2] = bits_float(r.z);
+  out[3] = bits_float(r.w);
 }
 inline void call_sobol_pair(const F* in, F* out, const TestGrid&) {
   U first, second;
@@ -52,6 +60,21 @@ inline void call_dda(const F* in, F* out, const TestGrid&) {
     *out++ = dda_cell_exit(walk);
     dda_step(walk);
   }
+}
+// Eight steps: the cells, where each is left and its bound. The words of the test grid's bricks stand in for bounds.
+inline void call_majorant_walk(const F* in, F* out, const TestGrid& g) {
+  const MajorantGrid majorants = {g.words, 8u, 64u, 0.25f};
+  MajorantWalk walk = majorant_start(majorants, call_vec3(in), call_vec3(in + 3));
+  for (int step = 0; step < 8; ++step) {
+    *out++ = call_result(walk.cell);
+    *out++ = majorant_cell_exit(walk);
+    const I cell = select(both(I(-1) < walk.cell, walk.cell < I(512)), walk.cell, I(0));
+    *out++ = majorant_at(majorants, cell);
+    majorant_step(walk);
+  }
+}
+inline void call_grid_stochastic(const F* in, F* out, const TestGrid& g) {
+  out[0] = grid_stochastic(call_grid(g), call_vec3(in), float_bits(in[3]), float_bits(in[4]));
 }
 inline void call_grid_nearest(const F* in, F* out, const TestGrid& g) {
   out[0] = grid_nearest(call_grid(g), call_vec3(in));
@@ -88,10 +111,25 @@ struct KernelCall {
   { #name, inputs, outputs, call_##name }
 #define PHASE(name) CALL(name##_eval, 5, 1), CALL(name##_sample, 5, 1), CALL(name##_mean_cosine, 4, 1),
 constexpr KernelCall kernel_calls[] = {
-    CALL(log_natural, 1, 1),  CALL(exp_natural, 1, 1),        CALL(sincos_turns, 1, 2),   CALL(pow_positive, 2, 1),
-    CALL(beer_lambert, 1, 1), CALL(mean_transmittance, 1, 1), CALL(march_position, 6, 1), CALL(random_bits, 4, 2),
-    CALL(box_clip, 14, 3),    CALL(box_span, 12, 5),          CALL(dda, 6, 48),           CALL(grid_nearest, 3, 1),
-    CALL(grid_linear, 3, 1),  CALL(cell_mean_linear, 7, 1),   CALL(sobol_pair, 6, 2),
+    CALL(log_natural, 1, 1),
+    CALL(exp_natural, 1, 1),
+    CALL(sincos_turns, 1, 2),
+    CALL(pow_positive, 2, 1),
+    CALL(beer_lambert, 1, 1),
+    CALL(mean_transmittance, 1, 1),
+    CALL(march_position, 6, 1),
+    CALL(random_bits, 4, 2),
+    CALL(box_clip, 14, 3),
+    CALL(box_span, 12, 5),
+    CALL(dda, 6, 48),
+    CALL(grid_nearest, 3, 1),
+    CALL(grid_linear, 3, 1),
+    CALL(cell_mean_linear, 7, 1),
+    CALL(sobol_pair, 6, 2),
+    CALL(atan_turns, 1, 1),
+    CALL(random_words, 4, 4),
+    CALL(majorant_walk, 6, 24),
+    CALL(grid_stochastic, 5, 1),
 #include "kernel/phase_list.inl"
 };
 #undef PHASE

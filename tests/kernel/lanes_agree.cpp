@@ -67,6 +67,11 @@ float inside_argument(int n, int argument) {
   return argument < 3 ? uniform(n, argument, 0, 16) : component(n, argument);
 }
 
+float random_word(int n, int argument) {
+  return std::bit_cast<float>(
+      kernel::random_bits(5, 6, static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(argument)));
+}
+
 Arguments phase_arguments(bool with_number, float lo, const std::string& name) {
   const std::vector<PhaseCase> all = phase_cases();
   std::vector<kernel::vec4> prepared;
@@ -83,16 +88,14 @@ std::map<std::string, Agreement, std::less<>> agreements() {
   std::map<std::string, Agreement, std::less<>> all;
   all["log_natural"] = {2, 0, [](int n, int a) { return n % 2 ? magnitude(n, a, -126, 127) : uniform(n, a, 0.5f, 2); }};
   all["exp_natural"] = {2, 0, range(-90, 90)};
+  all["atan_turns"] = {2, 0, [](int n, int a) { return (n % 2 ? 1.0f : -1.0f) * magnitude(n, a, -20, 20); }};
   all["sincos_turns"] = {2, 1.2e-7, range(-10, 10)};
   all["pow_positive"] = {64, 0, [](int n, int a) { return a == 0 ? magnitude(n, a, -20, 20) : uniform(n, a, -4, 4); }};
   all["beer_lambert"] = {2, 0, range(0, 90)};
   all["mean_transmittance"] = {4, 0, [](int n, int a) { return magnitude(n, a, -20, 7); }};
   all["march_position"] = {2, 0,
                            [](int n, int a) { return a == 2 ? std::bit_cast<float>(n % 1000) : uniform(n, a, 0, 1); }};
-  all["random_bits"] = {0, 0, [](int n, int a) {
-                          return std::bit_cast<float>(
-                              kernel::random_bits(5, 6, static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(a)));
-                        }};
+  all["random_bits"] = all["random_words"] = {0, 0, random_word};
   all["sobol_pair"] = {0, 0, [](int n, int a) {
                          const std::uint32_t bits =
                              kernel::random_bits(7, 8, static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(a));
@@ -101,6 +104,8 @@ std::map<std::string, Agreement, std::less<>> agreements() {
   all["box_clip"] = {0, 0, box_argument};
   all["box_span"] = {2, 1e-5, box_argument};
   all["dda"] = {0, 0, inside_argument};
+  all["majorant_walk"] = {0, 0, inside_argument};
+  all["grid_stochastic"] = {2, 0, [](int n, int a) { return a < 3 ? uniform(n, a, -7, 23) : random_word(n, a); }};
   all["grid_nearest"] = {2, 0, range(-7.5f, 23.5f)};
   all["grid_linear"] = {2, 3e-7, range(-7, 23.5f)};
   all["cell_mean_linear"] = {2, 3e-7,

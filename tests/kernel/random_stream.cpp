@@ -70,8 +70,36 @@ double correlation_p_value(Stream stream, std::size_t axis, std::size_t other) {
   return normal_p_value(12 * sum / std::sqrt(static_cast<double>(values)));
 }
 
-// 4 axes by 2 groups of bits, and 16 pairs of axes by 2 tests.
-const double significance = sidak(0.01, 4 * 2 + 16 * 2);
+// Word number `word` of a counter's four.
+std::uint32_t word_of(const Counters& c, int word) {
+  const kernel::RandomWords r = kernel::random_words(c[0], c[1], c[2], c[3]);
+  return std::array{r.x, r.y, r.z, r.w}[static_cast<std::size_t>(word)];
+}
+
+// p-value that two words of one counter, or of neighbours `aside` steps apart along `axis`, fill the square evenly.
+double word_pair_p_value(std::size_t axis, int first, int second, std::uint32_t aside) {
+  std::vector<double> counts(64 * 64);
+  for (std::uint32_t n = 0; n < values; ++n)
+    ++counts[(word_of(counters(axis, n, 0, 0), first) >> 26) * 64 +
+             (word_of(counters(axis, n, axis, aside), second) >> 26)];
+  return uniform_p_value(counts, values);
+}
+
+// 4 axes by 2 groups of bits, 16 pairs of axes by 2 tests, and 4 axes by 22 pairs of words.
+const double significance = sidak(0.01, 4 * 2 + 16 * 2 + 4 * 22);
+
+// A counter's four words are four numbers: each uniform, and none a function of another, nor of its neighbour's.
+TEST(RandomStream, TheWordsOfACounterAreIndependent) {
+  for (std::size_t axis = 0; axis < 4; ++axis)
+    for (int first = 0; first < 4; ++first)
+      for (int second = 0; second < 4; ++second) {
+        if (first < second)
+          EXPECT_GT(word_pair_p_value(axis, first, second, 0), significance)
+              << "along " << names[axis] << ", words " << first << " and " << second;
+        EXPECT_GT(word_pair_p_value(axis, first, second, 1), significance)
+            << "along " << names[axis] << ", words " << first << " and the next one's " << second;
+      }
+}
 
 TEST(RandomStream, ValuesAreUniform) {
   for (std::size_t axis = 0; axis < 4; ++axis)

@@ -71,6 +71,66 @@ TEST(Determinism, AnotherSeedGivesAnotherPicture) {
   EXPECT_NE(render_film(s, 1).image().pixels, one.pixels);
 }
 
+// The pixels of `box` in the picture of a film.
+std::vector<float> part(const Film& film, const PixelBox& box) {
+  const Image image = film.image();
+  std::vector<float> pixels;
+  for (int y = box.y0; y < box.y1; ++y) {
+    const auto row = image.pixels.begin() + 3 * (y * image.width + box.x0);
+    pixels.insert(pixels.end(), row, row + 3 * box.width());
+  }
+  return pixels;
+}
+
+// Twins: a window that is off by one pixel or row, and random numbers that count the window's pixels.
+TEST(Determinism, ACropWindowHasThePixelsOfTheWholePicture) {
+  for (const auto sampler : samplers)
+    for (const char* integrator : {"classic", "reference"}) {
+      SceneDescription s = busy_scene(sampler);
+      s.integrator.name = integrator;
+      const Film whole = render_film(s, 2);
+      s.film.crop_window = {0.3, 0.81, 0.25, 0.75};
+      const PixelBox window{12, 33, 6, 18};
+      EXPECT_EQ(cropped_pixels(s.film), window);
+      const std::vector<float> expected = part(whole, window);
+      EXPECT_EQ(render_film(s, 2, 2).image().pixels, expected);
+
+      const auto with_fault = [&](auto&& plant) {
+        std::vector<Diagnostic> warnings;
+        CompiledScene compiled = compile(s, 1, warnings);
+        plant(compiled);
+        const auto backend = make_cpu_backend();
+        backend->prepare(compiled);
+        Film film(window.width(), window.height());
+        backend->render(0, 2, 1, film, [](double) { return true; });
+        return film.image().pixels;
+      };
+      EXPECT_EQ(with_fault([](CompiledScene&) {}), expected);
+      EXPECT_NE(with_fault([](CompiledScene& c) { c.crop.x0 += 1; }), expected);
+      EXPECT_NE(with_fault([](CompiledScene& c) { c.crop.y0 += 1; }), expected);
+      EXPECT_NE(with_fault([&](CompiledScene& c) { c.width = window.width(); }), expected);
+    }
+}
+
+TEST(Determinism, CropWindowsThatTileShareNoPixel) {
+  FilmDescription film;
+  for (const int edge : {1, 2, 3, 7, 49, 640, 65536}) {
+    film.width = film.height = edge;
+    for (const double cut : {0.0, 0.1, 1.0 / 3, 0.5, 0.6180339887498949, 0.999, 1.0}) {
+      film.crop_window = {0, cut, 0, 1};
+      const int end = cropped_pixels(film).x1;
+      film.crop_window = {cut, 1, 0, 1};
+      EXPECT_EQ(cropped_pixels(film).x0, end);
+      EXPECT_EQ(cropped_pixels(film).x1, edge);
+    }
+    // Whole pixels as fractions stay whole pixels.
+    for (int x = 0; x <= edge; x += std::max(1, edge / 50)) {
+      film.crop_window = {static_cast<double>(x) / edge, 1, 0, 1};
+      EXPECT_EQ(cropped_pixels(film).x0, x);
+    }
+  }
+}
+
 TEST(Determinism, AStoppedRenderSaysSo) {
   std::vector<Diagnostic> warnings;
   const CompiledScene compiled = compile(busy_scene(), 1, warnings);

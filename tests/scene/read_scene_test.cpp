@@ -143,6 +143,18 @@ TEST(ReadScene, DefaultsOfAnEmptyWorld) {
   EXPECT_EQ(s.integrator.placement, Placement::middle);
 }
 
+TEST(ReadScene, CropWindowsAndPixelBounds) {
+  const auto pixels = [](const std::string& parameters) {
+    return cropped_pixels(
+        scene_of("Film \"rgb\" \"integer xresolution\" 49 \"integer yresolution\" 30 " + parameters + " WorldBegin")
+            .film);
+  };
+  EXPECT_EQ(pixels(""), (PixelBox{0, 49, 0, 30}));
+  EXPECT_EQ(pixels("\"float cropwindow\" [0 0.5 0.1 1]"), (PixelBox{0, 25, 3, 30}));
+  EXPECT_EQ(pixels("\"integer pixelbounds\" [1 48 2 29]"), (PixelBox{1, 48, 2, 29}));
+  EXPECT_EQ(pixels("\"integer pixelbounds\" [1 48 2 29] \"float cropwindow\" [0 0.5 0.1 1]"), (PixelBox{0, 25, 3, 30}));
+}
+
 TEST(ReadScene, OneMediumNameIsForBothSides) {
   const SceneDescription s =
       world_of("MakeNamedMedium \"m\" \"string type\" \"homogeneous\" MediumInterface \"m\" Shape \"sphere\"");

@@ -58,7 +58,34 @@ void expect_equal(const ShapeDescription& a, const ShapeDescription& b) {
     EXPECT_EQ(phong->reflection, other.reflection);
     EXPECT_EQ(phong->shininess, other.shininess);
   }
+  if (const auto* conductor = std::get_if<ConductorMaterial>(&a.material)) {
+    EXPECT_EQ(conductor->eta, std::get<ConductorMaterial>(b.material).eta);
+    EXPECT_EQ(conductor->k, std::get<ConductorMaterial>(b.material).k);
+  }
+  if (const auto* dielectric = std::get_if<DielectricMaterial>(&a.material)) {
+    EXPECT_EQ(dielectric->eta, std::get<DielectricMaterial>(b.material).eta);
+  }
+  ASSERT_EQ(a.light.has_value(), b.light.has_value());
+  if (a.light) {
+    EXPECT_EQ(a.light->radiance, b.light->radiance);
+    EXPECT_EQ(a.light->two_sided, b.light->two_sided);
+    EXPECT_EQ(a.light->power, b.light->power);
+  }
   ASSERT_EQ(a.kind.index(), b.kind.index());
+  if (const auto* disk = std::get_if<DiskShape>(&a.kind)) {
+    const auto& other = std::get<DiskShape>(b.kind);
+    EXPECT_EQ(disk->radius, other.radius);
+    EXPECT_EQ(disk->height, other.height);
+    EXPECT_EQ(disk->inner_radius, other.inner_radius);
+    EXPECT_EQ(disk->phi_max, other.phi_max);
+  }
+  if (const auto* cylinder = std::get_if<CylinderShape>(&a.kind)) {
+    const auto& other = std::get<CylinderShape>(b.kind);
+    EXPECT_EQ(cylinder->radius, other.radius);
+    EXPECT_EQ(cylinder->z_min, other.z_min);
+    EXPECT_EQ(cylinder->z_max, other.z_max);
+    EXPECT_EQ(cylinder->phi_max, other.phi_max);
+  }
   if (const auto* sphere = std::get_if<SphereShape>(&a.kind)) {
     EXPECT_EQ(sphere->radius, std::get<SphereShape>(b.kind).radius);
   }
@@ -87,7 +114,11 @@ void expect_equal(const LightDescription& a, const LightDescription& b) {
     EXPECT_EQ(distant->radiance, std::get<DistantLight>(b.kind).radiance);
   }
   if (const auto* infinite = std::get_if<InfiniteLight>(&a.kind)) {
-    EXPECT_EQ(infinite->radiance, std::get<InfiniteLight>(b.kind).radiance);
+    const auto& other = std::get<InfiniteLight>(b.kind);
+    EXPECT_EQ(infinite->radiance, other.radiance);
+    EXPECT_EQ(infinite->filename, other.filename);
+    EXPECT_EQ(infinite->world_from_light, other.world_from_light);
+    EXPECT_EQ(infinite->illuminance, other.illuminance);
   }
 }
 
@@ -130,7 +161,8 @@ TEST_P(WriteSceneFile, ReadsBackTheSame) {
   std::vector<Diagnostic> warnings;
   expect_round_trip(read_scene(test_folder(std::string("scenes/") + GetParam()), warnings));
 }
-INSTANTIATE_TEST_SUITE_P(Scenes, WriteSceneFile, testing::Values("fog.pbrt", "smoke.pbrt", "additions.pbrt"));
+INSTANTIATE_TEST_SUITE_P(Scenes, WriteSceneFile,
+                         testing::Values("fog.pbrt", "smoke.pbrt", "additions.pbrt", "surfaces.pbrt"));
 
 TEST(WriteScene, AnEmptySceneReadsBackTheSame) { expect_round_trip({}); }
 

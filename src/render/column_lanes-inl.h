@@ -1,0 +1,90 @@
+// Columns of rays and paths in SIMD lanes, and phase functions as types: what the stages of volpath that are compiled
+// for several instruction sets share. Included as lanes/lanes-inl.h is, and in its place.
+#if defined(BRUME_COLUMN_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BRUME_COLUMN_LANES_INL_H
+#undef BRUME_COLUMN_LANES_INL_H
+#else
+#define BRUME_COLUMN_LANES_INL_H
+#endif
+
+#include "lanes/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace brume {
+namespace HWY_NAMESPACE {
+
+HWY_INLINE F gather(const float* column, I index) { return F(hn::GatherIndex(float_tag, column, index.v)); }
+HWY_INLINE vec3 gather3(float* const* columns, I index) {
+  return vec3(gather(columns[0], index), gather(columns[1], index), gather(columns[2], index));
+}
+HWY_INLINE vec3 load3(float* const* columns, std::uint32_t i) {
+  return vec3(load_lanes(columns[0] + i), load_lanes(columns[1] + i), load_lanes(columns[2] + i));
+}
+
+// Stores the lanes `where`, each at its own place. (By reading and writing a whole vector: stores under a mask are slow
+// on some machines.)
+HWY_INLINE void put(F x, B where, float* to) { store_lanes(select(where, x, load_lanes(to)), to); }
+HWY_INLINE void put(U x, B where, std::uint32_t* to) { store_lanes(select(where, x, load_lanes(to)), to); }
+HWY_INLINE void put3(vec3 v, B where, float* const* columns, std::uint32_t i) {
+  put(v.x, where, columns[0] + i);
+  put(v.y, where, columns[1] + i);
+  put(v.z, where, columns[2] + i);
+}
+
+HWY_INLINE vec3 select3(B m, vec3 a, vec3 b) {
+  return vec3(select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z));
+}
+
+HWY_INLINE std::size_t count_lanes(B m) { return hn::CountTrue(float_tag, m.m); }
+HWY_INLINE B no_lanes() { return F(0.0f) < F(0.0f); }
+
+// The lanes of a mask as bits, the first the lowest; and back.
+HWY_INLINE std::uint32_t lane_bits(B m) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(float_tag, m.m, bytes);
+  return bytes[0] | (static_cast<std::uint32_t>(bytes[1]) << 8);
+}
+HWY_INLINE B lanes_of_bits(std::uint32_t bits) {
+  const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8)};
+  return B(hn::LoadMaskBits(float_tag, bytes));
+}
+
+// The lanes of a mask, packed to the front of a vector.
+struct Packing {
+  decltype(hn::SetTableIndices(float_tag, static_cast<const std::int32_t*>(nullptr))) order;
+  std::uint32_t count;
+};
+HWY_INLINE Packing packing_of(B m) {
+  HWY_ALIGN std::int32_t lanes[HWY_MAX_BYTES / sizeof(std::int32_t)] = {};
+  std::uint32_t count = 0;
+  for (std::uint32_t left = lane_bits(m); left != 0; left &= left - 1)
+    lanes[count++] = static_cast<std::int32_t>(__builtin_ctz(left));
+  return {hn::SetTableIndices(float_tag, lanes), count};
+}
+
+// Stores the packed lanes one after the other. Writes a whole vector.
+HWY_INLINE void append(F x, const Packing& packing, float* to) {
+  store_lanes(F(hn::TableLookupLanes(x.v, packing.order)), to);
+}
+HWY_INLINE void append(U x, const Packing& packing, std::uint32_t* to) {
+  append(bits_float(x), packing, reinterpret_cast<float*>(to));
+}
+HWY_INLINE void append3(vec3 v, const Packing& packing, float* const* columns, std::uint32_t i) {
+  append(v.x, packing, columns[0] + i);
+  append(v.y, packing, columns[1] + i);
+  append(v.z, packing, columns[2] + i);
+}
+
+#define PHASE(name)                                                         \
+  struct name##_lanes {                                                     \
+    static HWY_INLINE F eval(F mu, vec4 p) { return name##_eval(mu, p); }   \
+    static HWY_INLINE F sample(F u, vec4 p) { return name##_sample(u, p); } \
+  };
+#include "kernel/phase_list.inl"
+#undef PHASE
+
+}  // namespace HWY_NAMESPACE
+}  // namespace brume
+HWY_AFTER_NAMESPACE();
+
+#endif

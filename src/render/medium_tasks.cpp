@@ -1,0 +1,239 @@
+#include "render/medium_tasks.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/medium_tasks.cpp"
+#include <hwy/foreach_target.h>
+
+#include "render/column_lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace brume {
+namespace HWY_NAMESPACE {
+
+HWY_INLINE F row_times(const float* row, vec3 v) { return fma(row[0], v.x, fma(row[1], v.y, F(row[2]) * v.z)); }
+
+// Adds the stretches of rays within a box to the tasks that begin at `out`; returns how many. `ordinal` numbers the
+// media that a ray may cross, so that each has random numbers of its own.
+std::uint32_t clip_lanes(const BoxFrame& box, const RayColumns& rays, std::uint32_t count, std::uint32_t ordinal,
+                         const TrackColumns& out, std::uint32_t at) {
+  const std::uint32_t first = at;
+  const vec3 lo(box.lo[0], box.lo[1], box.lo[2]), hi(box.hi[0], box.hi[1], box.hi[2]);
+  for (std::uint32_t i = 0; i < count; i += static_cast<std::uint32_t>(lane_count())) {
+    const F t_max = load_lanes(rays.t_max + i);
+    const I index = lane_index() + I(static_cast<std::int32_t>(i));
+    const vec3 o = load3(rays.origin, i), d = load3(rays.direction, i);
+    const vec3 origin(row_times(box.matrix[0], o) + box.matrix[0][3], row_times(box.matrix[1], o) + box.matrix[1][3],
+                      row_times(box.matrix[2], o) + box.matrix[2][3]);
+    const vec3 direction(row_times(box.matrix[0], d), row_times(box.matrix[1], d), row_times(box.matrix[2], d));
+    const BoxSpan span = box_span(origin, direction, lo, hi, F(0.0f), t_max);
+    const B crosses = both(span.t_length > 0.0f, index < I(static_cast<std::int32_t>(count)));
+    if (!any(crosses)) continue;
+    const Packing packing = packing_of(crosses);
+    const U key = hash_word(load_lanes(rays.key + i) + U(ordinal * 0x9e3779b9u));
+    const U pixel = load_lanes(rays.pixel + i), sample = load_lanes(rays.sample + i);
+    const F u = ordinal == 0 ? load_lanes(rays.distance_u + i) : random_uniform(key, pixel, sample, U(0xffffffffu));
+    append3(span.entry, packing, out.entry, at);
+    append3(direction, packing, out.direction, at);
+    append(span.t_length, packing, out.length + at);
+    append(span.t_enter, packing, out.t_begin + at);
+    append(-log_natural(1.0f - u), packing, out.optical_depth + at);
+    append(key, packing, out.key + at);
+    append(pixel, packing, out.pixel + at);
+    append(sample, packing, out.sample + at);
+    append(load_lanes(rays.hero + i), packing, out.hero + at);
+    append(as_uint(index), packing, out.ray + at);
+    at += packing.count;
+  }
+  return at - first;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace brume
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+#include <algorithm>
+#include <cmath>
+
+namespace brume {
+
+HWY_EXPORT(clip_lanes);
+
+MediumTasks::MediumTasks(const CompiledScene& scene, const Intersector& intersector, const MediaAlongRay& media)
+    : scene_(scene), intersector_(intersector), media_(media), tasks_(scene.media.size()) {
+  for (const CompiledMedium& medium : scene.media) {
+    is_chromatic_ = is_chromatic_ || !(medium.sigma_t == constant_spectrum(medium.sigma_t[0]));
+    grids_.emplace_back();
+    if (medium.grid >= 0) grids_.back().emplace(scene.grids[static_cast<std::size_t>(medium.grid)], medium);
+  }
+  for (const CompiledVolume& volume : scene.volumes) {
+    BoxFrame box{};
+    for (std::size_t row = 0; row < 3; ++row) {
+      for (std::size_t i = 0; i < 4; ++i) box.matrix[row][i] = static_cast<float>(volume.box_from_world.m[row][i]);
+      box.lo[row] = volume.lo[row];
+      box.hi[row] = volume.hi[row];
+    }
+    box.medium = volume.medium;
+    boxes_.push_back(box);
+  }
+}
+
+void MediumTasks::find_stretches(const RayColumns& rays, std::uint32_t count) {
+  for (TrackTasks& tasks : tasks_) tasks.count = 0;
+  for (std::uint32_t i = 0; i < boxes_.size(); ++i) {
+    TrackTasks& tasks = tasks_[static_cast<std::size_t>(boxes_[i].medium)];
+    tasks.make_room(count);
+    tasks.count += HWY_DYNAMIC_DISPATCH(clip_lanes)(boxes_[i], rays, count, i, tasks.columns, tasks.count);
+  }
+  if (intersector_.has_boundaries() || media_.has_surrounding_medium()) add_bounded_media(rays, count);
+}
+
+// The stretches in media with a boundary of shapes, and in the one around all.
+void MediumTasks::add_bounded_media(const RayColumns& rays, std::uint32_t count) {
+  rays_.clear();
+  ray_of_span_.clear();
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (!(rays.t_max[i] > 0)) continue;
+    rays_.push_back({{rays.origin[0][i], rays.origin[1][i], rays.origin[2][i]},
+                     {rays.direction[0][i], rays.direction[1][i], rays.direction[2][i]},
+                     rays.t_max[i]});
+    ray_of_span_.push_back(i);
+  }
+  if (const auto place = media_.find_bounded(rays_, spans_, crossings_)) too_many_media_ = place;
+  std::uint32_t ordinal = 0;
+  for (std::size_t s = 0; s < spans_.size(); ++s) {
+    const MediumSpan& span = spans_[s];
+    ordinal = s > 0 && spans_[s - 1].ray == span.ray ? ordinal : static_cast<std::uint32_t>(boxes_.size());
+    const std::uint32_t ray = ray_of_span_[static_cast<std::size_t>(span.ray)];
+    TrackTasks& tasks = tasks_[static_cast<std::size_t>(span.medium)];
+    // A medium that is there twice collides twice as often.
+    for (int i = 0; i < span.count; ++i, ++ordinal) {
+      tasks.make_room(1);
+      const TrackColumns& c = tasks.columns;
+      const std::uint32_t at = tasks.count++;
+      const float entry[3] = {span.entry_index.x, span.entry_index.y, span.entry_index.z};
+      const float direction[3] = {span.direction_index.x, span.direction_index.y, span.direction_index.z};
+      for (int axis = 0; axis < 3; ++axis) {
+        c.entry[axis][at] = entry[axis];
+        c.direction[axis][at] = direction[axis];
+      }
+      c.length[at] = span.t_end - span.t_begin;
+      c.t_begin[at] = span.t_begin;
+      c.key[at] = kernel::hash_word(rays.key[ray] + ordinal * 0x9e3779b9u);
+      c.pixel[at] = rays.pixel[ray];
+      c.sample[at] = rays.sample[ray];
+      const float u = ordinal == 0 ? rays.distance_u[ray]
+                                   : kernel::random_uniform(c.key[at], c.pixel[at], c.sample[at], 0xffffffffu);
+      c.optical_depth[at] = -kernel::log_natural(1 - u);
+      c.hero[at] = rays.hero[ray];
+      c.ray[at] = ray;
+    }
+  }
+}
+
+// Shortens stretches to the nearest collision found so far.
+void MediumTasks::cut_to_nearest(TrackTasks& tasks, const FlightColumns& flights) const {
+  const TrackColumns& c = tasks.columns;
+  for (std::uint32_t i = 0; i < tasks.count; ++i)
+    c.length[i] = std::min(c.length[i], flights.t[c.ray[i]] - c.t_begin[i]);
+}
+
+// The first collision of each stretch with its medium.
+void MediumTasks::collide(std::size_t medium, TrackTasks& tasks) {
+  if (grids_[medium]) return track_collisions(*grids_[medium], tasks, counts_);
+  const Spectrum& sigma_t = scene_.media[medium].sigma_t;
+  const TrackColumns& c = tasks.columns;
+  for (std::uint32_t i = 0; i < tasks.count; ++i) {
+    const auto hero = static_cast<int>(c.hero[i]);
+    const float sigma = sigma_t[hero], t = c.optical_depth[i] / std::max(sigma, 1e-30f);
+    const bool collides = t < c.length[i];
+    c.result[i] = collides ? t : -1;
+    if (!is_chromatic_) continue;
+    const float flown = std::max(collides ? t : c.length[i], 0.0f);
+    for (int k = 0; k < 3; ++k) c.weight[k][i] = kernel::exp_natural((sigma - sigma_t[k]) * flown);
+  }
+}
+
+void MediumTasks::find_collisions(const RayColumns& rays, std::uint32_t count, const FlightColumns& flights) {
+  std::copy_n(rays.t_max, count, flights.t);
+  std::fill_n(flights.medium, count, no_medium);
+  bool is_first = true;
+  for (std::size_t medium = 0; medium < tasks_.size(); ++medium) {
+    TrackTasks& tasks = tasks_[medium];
+    if (tasks.count == 0) continue;
+    if (!is_first) cut_to_nearest(tasks, flights);
+    is_first = false;
+    collide(medium, tasks);
+    const TrackColumns& c = tasks.columns;
+    for (std::uint32_t i = 0; i < tasks.count; ++i) {
+      const float t = c.t_begin[i] + c.result[i];
+      const std::uint32_t ray = c.ray[i];
+      if (c.result[i] < 0 || t >= flights.t[ray]) continue;
+      flights.t[ray] = t;
+      flights.medium[ray] = static_cast<std::int32_t>(medium);
+    }
+  }
+  if (!is_chromatic_) return;
+  for (float* weight : flights.weight) std::fill_n(weight, count, 1.0f);
+  for (std::size_t medium = 0; medium < tasks_.size(); ++medium) weigh_flights(medium, flights);
+}
+
+// Multiplies the weights of flights by those of their stretches through a medium, up to where the flight ended. A
+// stretch that was followed further is tracked again up to there: the same random numbers make the same flight.
+void MediumTasks::weigh_flights(std::size_t medium, const FlightColumns& flights) {
+  const TrackColumns& c = tasks_[medium].columns;
+  again_.count = 0;
+  for (std::uint32_t i = 0; i < tasks_[medium].count; ++i) {
+    const float end = flights.t[c.ray[i]] - c.t_begin[i];
+    if (!(end > 0)) continue;
+    const float followed = c.result[i] < 0 ? c.length[i] : c.result[i];
+    if (followed <= end) {
+      const bool weighed = !grids_[medium] || grids_[medium]->chromatic;
+      for (int k = 0; weighed && k < 3; ++k) flights.weight[k][c.ray[i]] *= c.weight[k][i];
+      continue;
+    }
+    again_.make_room(1);
+    const TrackColumns& a = again_.columns;
+    const std::uint32_t at = again_.count++;
+    for (int axis = 0; axis < 3; ++axis) {
+      a.entry[axis][at] = c.entry[axis][i];
+      a.direction[axis][at] = c.direction[axis][i];
+    }
+    a.length[at] = end;
+    a.t_begin[at] = c.t_begin[i];
+    a.optical_depth[at] = c.optical_depth[i];
+    a.key[at] = c.key[i];
+    a.pixel[at] = c.pixel[i];
+    a.sample[at] = c.sample[i];
+    a.hero[at] = c.hero[i];
+    a.ray[at] = c.ray[i];
+  }
+  if (again_.count == 0 || (grids_[medium] && !grids_[medium]->chromatic)) return;
+  collide(medium, again_);
+  const TrackColumns& a = again_.columns;
+  for (std::uint32_t i = 0; i < again_.count; ++i)
+    for (int k = 0; k < 3; ++k) flights.weight[k][a.ray[i]] *= a.weight[k][i];
+}
+
+void MediumTasks::find_transmittance(std::uint32_t count, float* const (&transmittance)[3]) {
+  const int channels = is_chromatic_ ? 3 : 1;
+  for (int k = 0; k < channels; ++k) std::fill_n(transmittance[k], count, 1.0f);
+  for (std::size_t medium = 0; medium < tasks_.size(); ++medium) {
+    TrackTasks& tasks = tasks_[medium];
+    const TrackColumns& c = tasks.columns;
+    if (!grids_[medium]) {
+      const Spectrum& sigma_t = scene_.media[medium].sigma_t;
+      for (std::uint32_t i = 0; i < tasks.count; ++i)
+        for (int k = 0; k < channels; ++k) transmittance[k][c.ray[i]] *= kernel::beer_lambert(sigma_t[k] * c.length[i]);
+      continue;
+    }
+    track_transmittance(*grids_[medium], tasks, counts_);
+    for (std::uint32_t i = 0; i < tasks.count; ++i)
+      for (int k = 0; k < channels; ++k)
+        transmittance[k][c.ray[i]] *= grids_[medium]->chromatic ? c.weight[k][i] : c.result[i];
+  }
+}
+
+}  // namespace brume
+#endif

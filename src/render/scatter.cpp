@@ -1,0 +1,222 @@
+#include "render/scatter.h"
+
+#include "render/phase.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/scatter.cpp"
+#include <hwy/foreach_target.h>
+
+#include "render/column_lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace brume {
+namespace HWY_NAMESPACE {
+
+// Shadow rays that would carry less than this, as a share of what isotropic scattering of the whole path would send,
+// play roulette: most directions of a narrow phase function are not worth a ray.
+constexpr float shadow_roulette_below = 0.5f;
+constexpr float path_roulette_below = 0.05f;
+
+// From coordinates about the z axis to coordinates about the unit vector n (render/directions.h).
+HWY_INLINE vec3 rotate_lanes(vec3 n, F mu, F turns) {
+  const F r = sqrt(max(1.0f - mu * mu, F(0.0f)));
+  F sine, cosine;
+  sincos_turns(turns, sine, cosine);
+  const F x = r * cosine, y = r * sine;
+  const F sign = select(n.z < 0.0f, F(-1.0f), F(1.0f));
+  const F a = F(-1.0f) / (sign + n.z), b = n.x * n.y * a;
+  const vec3 x_axis(fma(sign * n.x, n.x * a, F(1.0f)), sign * b, -(sign * n.x));
+  const vec3 y_axis(b, fma(n.y, n.y * a, sign), -n.y);
+  return normalize(x * x_axis + y * y_axis + mu * n);
+}
+
+// The numbers of an event: `light`, u and v of the direction, and one for roulette.
+struct EventNumbers {
+  F light, u, v, roulette, shadow_roulette;
+};
+
+HWY_INLINE EventNumbers event_numbers(const PathColumns& paths, std::uint32_t i, U depth) {
+  const U key = load_lanes(paths.ray.key + i), pixel = load_lanes(paths.ray.pixel + i),
+          sample = load_lanes(paths.ray.sample + i);
+  const RandomWords a = random_words(key, pixel, sample, U(0u));
+  EventNumbers n;
+  n.light = uniform_from_bits(a.x);
+  n.u = uniform_from_bits(a.y);
+  n.v = uniform_from_bits(a.z);
+  n.roulette = uniform_from_bits(a.w);
+  n.shadow_roulette = random_uniform(key, pixel, sample, U(1u));
+  for (int e = 0; e < sobol_events; ++e) {
+    const B here = (as_int(depth) == I(e));
+    if (!any(here)) continue;
+    const int first = first_point_of_event[e];
+    n.light = select(here, load_lanes(paths.points[first + 1] + i), n.light);
+    n.u = select(here, load_lanes(paths.points[first + 2] + i), n.u);
+    n.v = select(here, load_lanes(paths.points[first + 3] + i), n.v);
+  }
+  return n;
+}
+
+template <class Phase>
+std::uint32_t scatter(const ScatterJob& job, const PathColumns& paths, std::uint32_t count,
+                      const ShadowColumns& shadows, std::uint32_t& shadow_count, LightRequest* requests) {
+  const vec4 phase(job.phase_numbers[0], job.phase_numbers[1], job.phase_numbers[2], job.phase_numbers[3]);
+  const F max_depth = static_cast<float>(job.max_depth);
+  std::uint32_t request_count = 0;
+  std::uint32_t at = shadow_count;
+  for (std::uint32_t i = 0; i < count; i += static_cast<std::uint32_t>(lane_count())) {
+    const I index = lane_index() + I(static_cast<std::int32_t>(i));
+    const B here =
+        both((load_lanes(paths.flight.medium + i) == I(job.medium)), index < I(static_cast<std::int32_t>(count)));
+    if (!any(here)) continue;
+    const U depth = load_lanes(paths.depth + i);
+    const vec3 direction = load3(paths.ray.direction, i);
+    const vec3 p = load3(paths.ray.origin, i) + load_lanes(paths.flight.t + i) * direction;
+
+    // The weights: f sigma / sigma_hero, and what is emitted, which is seen at every collision.
+    F f[3], r[3], mean_rescale = 1.0f;
+    F hero_sigma = job.sigma_t[0];
+    if (job.is_chromatic) {
+      const I hero = as_int(load_lanes(paths.ray.hero + i));
+      hero_sigma = select((hero == I(1)), F(job.sigma_t[1]), select((hero == I(2)), F(job.sigma_t[2]), hero_sigma));
+      mean_rescale = 0.0f;
+      for (int c = 0; c < 3; ++c) {
+        r[c] = load_lanes(paths.rescale[c] + i) * (job.sigma_t[c] / hero_sigma);
+        mean_rescale = fma(r[c], F(1.0f / 3), mean_rescale);
+        put(r[c], here, paths.rescale[c] + i);
+      }
+    }
+    const F scale = F(1.0f) / (hero_sigma * mean_rescale);
+    F largest = 0.0f;
+    for (int c = 0; c < 3; ++c) {
+      const F before = load_lanes(paths.throughput[c] + i);
+      if (job.emission[c] > 0) {
+        const F seen = load_lanes(paths.radiance[c] + i);
+        put(fma(before * job.emission[c], scale, seen), here, paths.radiance[c] + i);
+      }
+      f[c] = before * (job.sigma_s[c] / hero_sigma);
+      largest = max(largest, f[c]);
+    }
+    const F worth = largest / mean_rescale;  // of the path, as seen by the camera
+    const B goes_on = both(both(here, to_float(as_int(depth)) < max_depth), worth > 0.0f);
+    const EventNumbers n = event_numbers(paths, i, depth);
+
+    // Light from a chosen light.
+    for (int k = 0; k < job.light_count; ++k) {
+      const DeltaLight& light = job.lights[k];
+      const B chosen = both(goes_on, both(n.light >= light.pick[0], n.light < light.pick[1]));
+      if (!any(chosen)) continue;
+      vec3 to_light(light.place[0], light.place[1], light.place[2]);
+      F distance = 1e30f, irradiance = 1 / (light.pick[1] - light.pick[0]);
+      if (light.is_point) {
+        to_light = to_light - p;
+        // A collision at the light itself would see infinity.
+        const F squared = max(dot(to_light, to_light), F(1e-20f));
+        distance = sqrt(squared);
+        to_light = to_light * (F(1.0f) / distance);
+        irradiance = irradiance / squared;
+      }
+      const F mu = min(max(dot(to_light, direction), F(-1.0f)), F(1.0f));
+      const F value = Phase::eval(mu, phase);
+      const F survival = min(value * worth * (12.566371f / shadow_roulette_below), F(1.0f));
+      const B sent = both(chosen, n.shadow_roulette < survival);
+      if (!any(sent)) continue;
+      const Packing packing = packing_of(sent);
+      const F weight = value * irradiance / (max(survival, F(1e-30f)) * mean_rescale);
+      append3(p, packing, shadows.ray.origin, at);
+      append3(to_light, packing, shadows.ray.direction, at);
+      append3(vec3(weight * f[0] * light.value[0], weight * f[1] * light.value[1], weight * f[2] * light.value[2]),
+              packing, shadows.value, at);
+      append(F(0.0f), packing, shadows.lead.t_max + at);
+      append(distance, packing, shadows.ray.t_max + at);
+      const U key = load_lanes(paths.ray.key + i);
+      append(hash_word(key ^ U(0x5bd1e995u)), packing, shadows.ray.key + at);
+      append(load_lanes(paths.ray.pixel + i), packing, shadows.ray.pixel + at);
+      append(load_lanes(paths.ray.sample + i), packing, shadows.ray.sample + at);
+      append(load_lanes(paths.ray.hero + i), packing, shadows.ray.hero + at);
+      append(random_uniform(key, load_lanes(paths.ray.pixel + i), load_lanes(paths.ray.sample + i), U(2u)), packing,
+             shadows.ray.distance_u + at);
+      append(as_uint(index), packing, shadows.path + at);
+      at += packing.count;
+    }
+    const B requested = both(goes_on, both(n.light >= job.picks_of_delta_lights, n.light < job.pick_end));
+    if (any(requested)) {
+      HWY_ALIGN float columns[10][HWY_MAX_BYTES / sizeof(float)];
+      const F values[10] = {n.light,
+                            p.x,
+                            p.y,
+                            p.z,
+                            direction.x,
+                            direction.y,
+                            direction.z,
+                            f[0] / mean_rescale,
+                            f[1] / mean_rescale,
+                            f[2] / mean_rescale};
+      for (int c = 0; c < 10; ++c) store_lanes(values[c], columns[c]);
+      for (std::uint32_t left = lane_bits(requested); left != 0; left &= left - 1) {
+        const int lane = __builtin_ctz(left);
+        LightRequest& request = requests[request_count++];
+        request.path = i + static_cast<std::uint32_t>(lane);
+        request.u = columns[0][lane];
+        for (int axis = 0; axis < 3; ++axis) {
+          request.position[axis] = columns[1 + axis][lane];
+          request.direction[axis] = columns[4 + axis][lane];
+          request.value[axis] = columns[7 + axis][lane];
+        }
+      }
+    }
+
+    // A new direction, or the end by roulette.
+    const F survival = min(worth * (1 / path_roulette_below), F(1.0f));
+    const B survives = both(goes_on, n.roulette < survival);
+    const F mu = Phase::sample(n.u, phase);
+    const vec3 next = rotate_lanes(direction, mu, n.v);
+    for (int c = 0; c < 3; ++c) put(f[c] / survival, here, paths.throughput[c] + i);
+    put3(p, here, paths.ray.origin, i);
+    put3(next, here, paths.ray.direction, i);
+    put(Phase::eval(mu, phase) * F(job.density_scale), here, paths.direction_density + i);
+    put(select(survives, F(1e30f), F(0.0f)), here, paths.ray.t_max + i);
+    put(depth + U(1u), here, paths.depth + i);
+    const U key = hash_word((depth + U(1u)) * U(0x9e3779b9u) ^ U(job.seed));
+    put(key, here, paths.ray.key + i);
+    F distance_u = random_uniform(key, load_lanes(paths.ray.pixel + i), load_lanes(paths.ray.sample + i), U(3u));
+    for (int e = 1; e < sobol_events; ++e)
+      distance_u =
+          select((as_int(depth) == I(e - 1)), load_lanes(paths.points[first_point_of_event[e]] + i), distance_u);
+    put(distance_u, here, paths.ray.distance_u + i);
+  }
+  shadow_count = at;
+  return request_count;
+}
+
+std::uint32_t scatter_lanes(const ScatterJob& job, const PathColumns& paths, std::uint32_t count,
+                            const ShadowColumns& shadows, std::uint32_t& shadow_count, LightRequest* requests) {
+  switch (job.phase) {
+#define PHASE(name) \
+  case kind_##name: \
+    return scatter<name##_lanes>(job, paths, count, shadows, shadow_count, requests);
+#include "kernel/phase_list.inl"
+#undef PHASE
+  }
+  return 0;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace brume
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace brume {
+
+HWY_EXPORT(scatter_lanes);
+
+std::uint32_t scatter_paths(const ScatterJob& job, const PathColumns& paths, std::uint32_t count,
+                            const ShadowColumns& shadows, std::uint32_t& shadow_count, LightRequest* requests) {
+  return HWY_DYNAMIC_DISPATCH(scatter_lanes)(job, paths, count, shadows, shadow_count, requests);
+}
+
+std::uint32_t event_key(std::uint32_t seed, std::uint32_t depth) {
+  return kernel::hash_word((depth * 0x9e3779b9u) ^ seed);
+}
+
+}  // namespace brume
+#endif

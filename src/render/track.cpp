@@ -1,0 +1,273 @@
+#include "render/track.h"
+
+#include <algorithm>
+
+#include "render/ray_batch.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/track.cpp"
+#include <hwy/foreach_target.h>
+
+#include "render/column_lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace brume {
+namespace HWY_NAMESPACE {
+
+// Vectors in flight: their latencies overlap, and their states fit the first cache.
+constexpr int vector_count = 8;
+constexpr int steps_a_round = 2;
+// The least survival before roulette ends tracks that carry little transmittance.
+constexpr float roulette_below = 0.1f;
+
+// One vector of tracks.
+struct Tracks {
+  vec3 origin, direction;
+  MajorantWalk walk;
+  F t, t_end;
+  F optical_depth;  // left to the next tentative collision
+  F majorant;       // extinction's, in the current cell
+  U key, pixel, sample, counter;
+  F weight[3];  // transmittance; or the null collisions' weights
+  F hero_sigma;
+  B stepping, waiting, done;
+  HWY_ALIGN std::uint32_t task[HWY_MAX_BYTES / sizeof(std::uint32_t)];
+};
+
+// is_ratio: estimate transmittance; else find the first collision.
+template <bool is_ratio, bool is_chromatic>
+struct Stream {
+  static constexpr int weight_count = is_chromatic ? 3 : is_ratio ? 1 : 0;
+
+  const BrickGrid density;
+  const MajorantGrid majorants;
+  const TrackedGrid& grid;
+  const TrackColumns& tasks;
+  const std::uint32_t task_count;
+  TrackCounts& counts;
+  std::uint32_t next_task = 0;
+  Tracks vectors[vector_count];
+
+  // Steps lanes to their next tentative collision, cell by cell.
+  HWY_INLINE void step(Tracks& v) {
+    const F exit = min(majorant_cell_exit(v.walk), v.t_end);
+    const F needed = v.majorant * (exit - v.t);
+    const B collides = both(v.stepping, v.optical_depth < needed);
+    const B moves = both(v.stepping, v.optical_depth >= needed);
+    v.waiting = either(v.waiting, collides);
+    v.optical_depth = select(moves, v.optical_depth - needed, v.optical_depth);
+    v.t = select(moves, exit, v.t);
+    const B ends = both(moves, exit >= v.t_end);
+    v.done = either(v.done, ends);
+    v.stepping = both(moves, exit < v.t_end);
+    MajorantWalk next = v.walk;
+    majorant_step(next);
+    v.walk.cell = select(v.stepping, next.cell, v.walk.cell);
+    v.walk.t_next = select3(v.stepping, next.t_next, v.walk.t_next);
+    v.majorant = select(v.stepping, majorant_at(majorants, v.walk.cell) * grid.sigma_majorant, v.majorant);
+    counts.steps += static_cast<std::int64_t>(count_lanes(moves));
+  }
+
+  // Looks up the density at tentative collisions and decides what they are.
+  HWY_INLINE void look_up(Tracks& v) {
+    const B here = v.waiting;
+    counts.look_ups += static_cast<std::int64_t>(count_lanes(here));
+    v.t = select(here, min(v.t + v.optical_depth / v.majorant, v.t_end), v.t);
+    const vec3 p = v.origin + v.t * v.direction;
+    const RandomWords r = random_words(v.key, v.pixel, v.sample, v.counter);
+    v.counter = v.counter + U(1u);
+    const F d = grid.linear ? grid_stochastic(density, p, r.x, r.y) : grid_nearest(density, p);
+    const B violates = both(here, d * grid.sigma_majorant > v.majorant * 1.00001f);
+    if (any(violates)) counts.majorant_violations += static_cast<std::int64_t>(count_lanes(violates));
+    v.optical_depth = select(here, -log_natural(1.0f - uniform_from_bits(r.w)), v.optical_depth);
+    const F u = uniform_from_bits(r.z);
+    B ends;
+    if (is_ratio) {
+      F largest = 0.0f;
+      for (int c = 0; c < weight_count; ++c) {
+        const F passed = max(1.0f - d * grid.sigma_t[c] / v.majorant, F(0.0f));
+        v.weight[c] = select(here, v.weight[c] * passed, v.weight[c]);
+        largest = max(largest, v.weight[c]);
+      }
+      const F survival = min(largest * (1 / roulette_below), F(1.0f));
+      ends = both(here, u >= survival);
+      for (int c = 0; c < weight_count; ++c)
+        v.weight[c] = select(ends, F(0.0f), select(here, v.weight[c] / max(survival, F(1e-30f)), v.weight[c]));
+    } else {
+      const F real = d * (is_chromatic ? v.hero_sigma : F(grid.sigma_majorant));
+      ends = both(here, u * v.majorant < real);
+      const B null = both(here, negate(ends));
+      for (int c = 0; c < weight_count; ++c) {
+        const F ratio = max(v.majorant - d * grid.sigma_t[c], F(0.0f)) / max(v.majorant - real, F(1e-30f));
+        v.weight[c] = select(null, v.weight[c] * ratio, v.weight[c]);
+      }
+      // Elsewhere t says that there was no collision.
+      v.t_end = select(ends, F(-1.0f), v.t_end);
+    }
+    v.done = either(v.done, ends);
+    v.stepping = either(v.stepping, both(here, negate(ends)));
+    v.waiting = no_lanes();
+  }
+
+  // Writes the results of the lanes that are done and starts new tasks in them, while there are any.
+  HWY_INLINE void finish(Tracks& v) {
+    HWY_ALIGN float result[HWY_MAX_BYTES / sizeof(float)];
+    HWY_ALIGN float weight[3][HWY_MAX_BYTES / sizeof(float)];
+    store_lanes(is_ratio ? v.weight[0] : select(v.t_end < 0.0f, v.t, F(-1.0f)), result);
+    if (is_chromatic)
+      for (int c = 0; c < 3; ++c) store_lanes(v.weight[c], weight[c]);
+    std::uint32_t started = 0;
+    for (std::uint32_t left = lane_bits(v.done); left != 0; left &= left - 1) {
+      const int lane = __builtin_ctz(left);
+      const std::uint32_t task = v.task[lane];
+      tasks.result[task] = result[lane];
+      if (is_chromatic)
+        for (int c = 0; c < 3; ++c) tasks.weight[c][task] = weight[c][lane];
+      if (next_task == task_count) continue;
+      v.task[lane] = next_task++;
+      started |= 1u << lane;
+    }
+    v.done = no_lanes();
+    if (started != 0) start(v, started);
+  }
+
+  HWY_INLINE void start(Tracks& v, std::uint32_t lanes) {
+    const B m = lanes_of_bits(lanes);
+    const I task = load_lanes(reinterpret_cast<const std::int32_t*>(v.task));
+    v.origin = select3(m, gather3(tasks.entry, task), v.origin);
+    v.direction = select3(m, gather3(tasks.direction, task), v.direction);
+    v.t = select(m, F(0.0f), v.t);
+    v.t_end = select(m, gather(tasks.length, task), v.t_end);
+    v.optical_depth = select(m, gather(tasks.optical_depth, task), v.optical_depth);
+    v.key = select(m, load_u32(tasks.key, task), v.key);
+    v.pixel = select(m, load_u32(tasks.pixel, task), v.pixel);
+    v.sample = select(m, load_u32(tasks.sample, task), v.sample);
+    v.counter = select(m, U(0u), v.counter);
+    for (int c = 0; c < weight_count; ++c) v.weight[c] = select(m, F(1.0f), v.weight[c]);
+    if (is_chromatic && !is_ratio) {
+      const I hero = as_int(load_u32(tasks.hero, task));
+      const F sigma =
+          select(hero == I(0), F(grid.sigma_t[0]), select(hero == I(1), F(grid.sigma_t[1]), F(grid.sigma_t[2])));
+      v.hero_sigma = select(m, sigma, v.hero_sigma);
+    }
+    const MajorantWalk w = majorant_start(majorants, v.origin, v.direction);
+    v.walk.t_next = select3(m, w.t_next, v.walk.t_next);
+    v.walk.t_cell = select3(m, w.t_cell, v.walk.t_cell);
+    v.walk.cell = select(m, w.cell, v.walk.cell);
+    v.walk.step_x = select(m, w.step_x, v.walk.step_x);
+    v.walk.step_y = select(m, w.step_y, v.walk.step_y);
+    v.walk.step_z = select(m, w.step_z, v.walk.step_z);
+    v.majorant = select(m, majorant_at(majorants, v.walk.cell) * grid.sigma_majorant, v.majorant);
+    v.stepping = either(v.stepping, m);
+  }
+
+  // Lanes that never had a task stay at a harmless place, the first task's.
+  void run() {
+    const std::size_t lanes = static_cast<std::size_t>(lane_count());
+    const std::size_t enough = (3 * lanes + 7) / 8;
+    for (Tracks& v : vectors) {
+      std::uint32_t started = 0;
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        v.task[lane] = next_task < task_count ? next_task : 0;
+        if (next_task == task_count) continue;
+        ++next_task;
+        started |= 1u << lane;
+      }
+      v.stepping = v.waiting = v.done = no_lanes();
+      start_all(v);
+      start(v, started);
+    }
+    for (bool busy = true; busy;) {
+      busy = false;
+      for (int round = 0; round < steps_a_round; ++round)
+        for (Tracks& v : vectors) step(v);
+      for (Tracks& v : vectors) {
+        const std::size_t waiting = count_lanes(v.waiting);
+        if (waiting >= enough || (waiting > 0 && !any(v.stepping))) look_up(v);
+      }
+      for (Tracks& v : vectors) {
+        const std::size_t done = count_lanes(v.done);
+        if (done >= enough || (done > 0 && !any(v.stepping) && !any(v.waiting))) finish(v);
+        busy = busy || any(v.stepping) || any(v.waiting) || any(v.done);
+      }
+    }
+  }
+
+  // Gives every lane numbers to compute with.
+  HWY_INLINE void start_all(Tracks& v) {
+    v.origin = v.direction = vec3(0.0f, 0.0f, 0.0f);
+    v.t = v.t_end = v.optical_depth = v.hero_sigma = 0.0f;
+    v.majorant = 1.0f;
+    v.key = v.pixel = v.sample = v.counter = U(0u);
+    for (F& w : v.weight) w = 0.0f;
+    v.walk = majorant_start(majorants, v.origin, v.direction);
+  }
+};
+
+template <bool is_ratio, bool is_chromatic>
+void run_stream(const TrackedGrid& g, const TrackColumns& tasks, std::uint32_t count, TrackCounts& counts) {
+  const kernel::BrickGrid& d = g.density;
+  const kernel::MajorantGrid& m = g.majorants;
+  Stream<is_ratio, is_chromatic> stream{{d.table, d.bricks, d.table_x, d.table_xy, d.bits},
+                                        {m.cells, m.row, m.layer, m.cells_per_voxel},
+                                        g,
+                                        tasks,
+                                        count,
+                                        counts,
+                                        0,
+                                        {}};
+  stream.run();
+}
+
+void track_lanes(const TrackedGrid& grid, bool is_ratio, const TrackColumns& tasks, std::uint32_t count,
+                 TrackCounts& counts) {
+  if (is_ratio)
+    grid.chromatic ? run_stream<true, true>(grid, tasks, count, counts)
+                   : run_stream<true, false>(grid, tasks, count, counts);
+  else
+    grid.chromatic ? run_stream<false, true>(grid, tasks, count, counts)
+                   : run_stream<false, false>(grid, tasks, count, counts);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace brume
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace brume {
+
+HWY_EXPORT(track_lanes);
+
+TrackedGrid::TrackedGrid(const CompiledGrid& grid, const CompiledMedium& medium)
+    : density(grid.view()),
+      majorants(grid.majorant_view()),
+      linear(medium.linear),
+      sigma_t{medium.sigma_t[0], medium.sigma_t[1], medium.sigma_t[2]},
+      sigma_majorant(max_value(medium.sigma_t)),
+      chromatic(!(medium.sigma_t == constant_spectrum(medium.sigma_t[0]))) {}
+
+void TrackTasks::make_room(std::uint32_t more) {
+  const std::uint32_t needed = count + more + widest_vector;
+  if (needed <= room_) return;
+  room_ = std::max(needed, 2 * room_);
+  for (auto& column : floats_) column.resize(room_);
+  for (auto& column : words_) column.resize(room_);
+  auto f = floats_.begin();
+  for (auto* triple : {&columns.entry, &columns.direction, &columns.weight})
+    for (float*& column : *triple) column = (f++)->data();
+  for (auto* column : {&columns.length, &columns.optical_depth, &columns.t_begin, &columns.result})
+    *column = (f++)->data();
+  auto w = words_.begin();
+  for (auto* column : {&columns.key, &columns.pixel, &columns.sample, &columns.hero, &columns.ray})
+    *column = (w++)->data();
+}
+
+void track_collisions(const TrackedGrid& grid, TrackTasks& tasks, TrackCounts& counts) {
+  if (tasks.count > 0) HWY_DYNAMIC_DISPATCH(track_lanes)(grid, false, tasks.columns, tasks.count, counts);
+}
+void track_transmittance(const TrackedGrid& grid, TrackTasks& tasks, TrackCounts& counts) {
+  if (tasks.count > 0) HWY_DYNAMIC_DISPATCH(track_lanes)(grid, true, tasks.columns, tasks.count, counts);
+}
+
+}  // namespace brume
+#endif

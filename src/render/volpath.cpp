@@ -1,0 +1,450 @@
+#include "render/volpath.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/camera_ray.h"
+#include "render/light_placement.h"
+#include "render/lights.h"
+#include "render/phase.h"
+#include "render/random_stream.h"
+#include "render/surfaces.h"
+
+namespace brume {
+
+using kernel::vec3;
+
+namespace {
+
+// Paths in flight: enough to fill the tracking stream many times over, few enough for the second cache.
+constexpr std::uint32_t path_count = 1024;
+constexpr std::uint32_t shadow_room = 2 * path_count;
+constexpr std::uint32_t idle = 0xffffffff;  // the target of a path that is none
+
+// Counters of random numbers, apart from those of tracking (from 0) and of points (0x40000000).
+std::uint32_t hashed_numbers(std::uint32_t depth) { return 0x20000000u + depth * 256; }
+
+vec3 at(float* const* columns, std::uint32_t i) { return {columns[0][i], columns[1][i], columns[2][i]}; }
+
+void set(float* const* columns, std::uint32_t i, vec3 v) {
+  columns[0][i] = v.x;
+  columns[1][i] = v.y;
+  columns[2][i] = v.z;
+}
+
+Spectrum spectrum_at(float* const* columns, std::uint32_t i) { return {{columns[0][i], columns[1][i], columns[2][i]}}; }
+
+void set(float* const* columns, std::uint32_t i, const Spectrum& s) {
+  for (int c = 0; c < 3; ++c) columns[c][i] = s[c];
+}
+
+void add(float* const* columns, std::uint32_t i, const Spectrum& s) {
+  for (int c = 0; c < 3; ++c) columns[c][i] += s[c];
+}
+
+// The lights for which is_in(light), points and directions first.
+template <class Predicate>
+LightTable make_light_table(const CompiledScene& scene, Predicate is_in) {
+  using Kind = CompiledLight::Kind;
+  const auto is_delta = [](const CompiledLight& l) { return l.kind == Kind::point || l.kind == Kind::distant; };
+  LightTable table;
+  table.chance.assign(scene.lights.size(), 0);
+  float total = 0;
+  for (const bool delta : {true, false})
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+      const CompiledLight& light = scene.lights[i];
+      if (!is_in(light) || is_delta(light) != delta || !(light.chance > 0)) continue;
+      table.lights.push_back(static_cast<int>(i));
+      total += light.chance;
+    }
+  float cumulated = 0;
+  for (const int i : table.lights) {
+    const CompiledLight& light = scene.lights[static_cast<std::size_t>(i)];
+    const float begin = table.cdf.empty() ? 0 : table.cdf.back();
+    cumulated += light.chance / total;
+    table.cdf.push_back(i == table.lights.back() ? 1 : std::min(cumulated, 1.0f));
+    table.chance[static_cast<std::size_t>(i)] = table.cdf.back() - begin;
+    if (!is_delta(light)) continue;
+    const bool is_point = light.kind == Kind::point;
+    const Vector3& place = is_point ? light.position : light.direction_to;
+    table.delta_lights.push_back(
+        {is_point,
+         {static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.z)},
+         {light.value[0], light.value[1], light.value[2]},
+         {begin, table.cdf.back()}});
+  }
+  return table;
+}
+
+void set_lights(ScatterJob& job, const LightTable& table) {
+  job.lights = table.delta_lights.data();
+  job.light_count = static_cast<int>(table.delta_lights.size());
+  job.picks_of_delta_lights = table.delta_lights.empty() ? 0 : table.delta_lights.back().pick[1];
+  job.pick_end = table.lights.empty() ? 0 : 1;
+}
+
+}  // namespace
+
+int LightTable::pick(float u) const {
+  for (std::size_t i = 0; i < cdf.size(); ++i)
+    if (u < cdf[i]) return lights[i];
+  return -1;
+}
+
+VolpathIntegrator::VolpathIntegrator(const CompiledScene& scene, const Intersector& intersector,
+                                     const MediaAlongRay& media, const Filter& filter)
+    : scene_(scene),
+      intersector_(intersector),
+      filter_(filter),
+      media_(scene, intersector, media),
+      shadow_media_(scene, intersector, media),
+      memory_(shadow_room),
+      hits_(path_count),
+      requests_(path_count) {
+  paths_.ray = memory_.rays();
+  paths_.flight.t = memory_.floats();
+  paths_.flight.medium = memory_.integers();
+  for (auto* columns :
+       {&paths_.flight.weight, &paths_.throughput, &paths_.rescale, &paths_.radiance, &shadows_.value, &transmittance_})
+    memory_.make_floats(*columns);
+  paths_.direction_density = memory_.floats();
+  paths_.depth = memory_.words();
+  paths_.target = memory_.words();
+  for (float*& column : paths_.points) column = memory_.floats();
+  shadows_.ray = memory_.rays();
+  shadows_.lead = memory_.rays();
+  shadows_.path = memory_.words();
+  fresh_ = {memory_.words(), memory_.words(), memory_.words()};
+  for (float*& column : fresh_points_) column = memory_.floats();
+  std::fill_n(paths_.target, path_count, idle);
+  make_jobs();
+}
+
+void VolpathIntegrator::make_jobs() {
+  using Kind = CompiledLight::Kind;
+  const auto is_left_to_paths = [](const CompiledLight& l) { return l.kind == Kind::infinite; };
+  const auto is_point = [](const CompiledLight& l) { return l.kind == Kind::point; };
+  all_lights_ = make_light_table(scene_, [&](const CompiledLight& l) { return !is_left_to_paths(l); });
+  point_lights_ = make_light_table(scene_, is_point);
+  other_lights_ =
+      make_light_table(scene_, [&](const CompiledLight& l) { return !is_left_to_paths(l) && !is_point(l); });
+  for (std::size_t i = 0; i < scene_.media.size(); ++i) {
+    const CompiledMedium& medium = scene_.media[i];
+    const bool places = medium.grid < 0 && !point_lights_.lights.empty();
+    ScatterJob job;
+    job.max_depth = scene_.integrator.max_depth;
+    job.seed = scene_.seed;
+    job.is_chromatic = media_.is_chromatic();
+    job.medium = static_cast<std::int32_t>(i);
+    job.phase = medium.phase;
+    for (int c = 0; c < 3; ++c) {
+      job.sigma_t[c] = medium.sigma_t[c];
+      job.sigma_s[c] = medium.sigma_s[c];
+      job.emission[c] = medium.emission[c];
+    }
+    std::copy(medium.phase_prepared.begin(), medium.phase_prepared.end(), job.phase_numbers);
+    if (places) {
+      placement_jobs_.push_back(job);
+      set_lights(placement_jobs_.back(), point_lights_);
+    }
+    set_lights(job, places ? other_lights_ : all_lights_);
+    // Chances are other ones here than at surfaces; multiple importance sampling sees their ratio in the density.
+    for (std::size_t k = 0; k < scene_.lights.size(); ++k)
+      if (other_lights_.chance[k] > 0 && places) job.density_scale = all_lights_.chance[k] / other_lights_.chance[k];
+    jobs_.push_back(job);
+  }
+}
+
+void VolpathIntegrator::render_tile(const PixelBox& pixels, int first, int last, Film& film) {
+  const auto samples = static_cast<std::uint32_t>(last - first);
+  Tile tile{pixels, first, last, static_cast<std::uint32_t>(pixels.width() * pixels.height()) * samples, 0};
+  sums_.assign(tile.sample_count, {});
+  filter_weights_.resize(tile.sample_count);
+  for (idle_.clear(); idle_.size() < path_count;) idle_.push_back(static_cast<std::uint32_t>(idle_.size()));
+  for (;;) {
+    start_paths(tile);
+    if (idle_.size() == path_count) break;
+    find_surfaces();
+    shadow_count_ = 0;
+    media_.find_stretches(paths_.ray, path_count);
+    place_lights_along_flights();
+    media_.find_collisions(paths_.ray, path_count, paths_.flight);
+    end_flights();
+    for (const ScatterJob& job : jobs_) {
+      make_room_for_shadow_rays(path_count);
+      answer_requests(job, scatter_paths(job, paths_, path_count, shadows_, shadow_count_, requests_.data()));
+    }
+    gather_shadow_rays();
+    finish_paths();
+  }
+  std::uint32_t at = 0;
+  for (int y = pixels.y0; y < pixels.y1; ++y)
+    for (int x = pixels.x0; x < pixels.x1; ++x)
+      for (std::uint32_t s = 0; s < samples; ++s, ++at) film.add(x, y, filter_weights_[at] * sums_[at]);
+}
+
+// Fills idle paths with new samples, once there are many of them or nothing else is left to do.
+void VolpathIntegrator::start_paths(Tile& tile) {
+  const auto fresh = std::min(static_cast<std::uint32_t>(idle_.size()), tile.sample_count - tile.next);
+  if (fresh == 0 || (idle_.size() < path_count / 8 && idle_.size() < path_count)) return;
+  const auto width = static_cast<std::uint32_t>(tile.pixels.width());
+  const auto samples = static_cast<std::uint32_t>(tile.last - tile.first);
+  for (std::uint32_t i = 0; i < fresh; ++i) {
+    const std::uint32_t target = tile.next + i, pixel = target / samples;
+    fresh_.x[i] = static_cast<std::uint32_t>(scene_.crop.x0 + tile.pixels.x0) + pixel % width;
+    fresh_.y[i] = static_cast<std::uint32_t>(scene_.crop.y0 + tile.pixels.y0) + pixel / width;
+    fresh_.sample[i] = static_cast<std::uint32_t>(tile.first) + target % samples;
+  }
+  find_sample_points(scene_, fresh_, fresh, point_dimensions + 2, fresh_points_);
+  for (std::uint32_t i = 0; i < fresh; ++i) {
+    start_path(idle_.back(), i, tile, tile.next + i);
+    idle_.pop_back();
+  }
+  tile.next += fresh;
+}
+
+void VolpathIntegrator::start_path(std::uint32_t path, std::uint32_t fresh, const Tile&, std::uint32_t target) {
+  const std::uint32_t x = fresh_.x[fresh], y = fresh_.y[fresh], sample = fresh_.sample[fresh];
+  const FilterSample place = filter_.sample(fresh_points_[0][fresh], fresh_points_[1][fresh]);
+  filter_weights_[target] = place.weight;
+  const Ray ray =
+      camera_ray(scene_.camera, x + 0.5 + static_cast<double>(place.x), y + 0.5 + static_cast<double>(place.y));
+  set(paths_.ray.origin, path, ray.origin);
+  set(paths_.ray.direction, path, ray.direction);
+  paths_.ray.t_max[path] = far_away;
+  paths_.ray.key[path] = event_key(scene_.seed, 0);
+  paths_.ray.pixel[path] = y * static_cast<std::uint32_t>(scene_.width) + x;
+  paths_.ray.sample[path] = sample;
+  paths_.ray.hero[path] =
+      media_.is_chromatic() ? (kernel::hash_word(paths_.ray.pixel[path] ^ kernel::hash_word(scene_.seed)) + sample) % 3
+                            : 0;
+  for (int d = 0; d < point_dimensions; ++d) paths_.points[d][path] = fresh_points_[d + 2][fresh];
+  paths_.ray.distance_u[path] = paths_.points[0][path];
+  set(paths_.throughput, path, constant_spectrum(1));
+  set(paths_.rescale, path, constant_spectrum(1));
+  set(paths_.radiance, path, Spectrum{});
+  paths_.direction_density[path] = -1;
+  paths_.depth[path] = 0;
+  paths_.target[path] = target;
+}
+
+Ray VolpathIntegrator::ray_of(std::uint32_t path) const {
+  return {at(paths_.ray.origin, path), at(paths_.ray.direction, path), paths_.ray.t_max[path]};
+}
+
+// Flights end at the first surface ahead.
+void VolpathIntegrator::find_surfaces() {
+  if (!intersector_.has_surfaces()) return;
+  for (std::uint32_t i = 0; i < path_count; ++i) {
+    hits_[i].shape = -1;
+    if (!(paths_.ray.t_max[i] > 0)) continue;
+    if (intersector_.nearest_surface(ray_of(i), hits_[i]))
+      paths_.ray.t_max[i] = hits_[i].t;
+    else
+      hits_[i].shape = -1;
+  }
+}
+
+void VolpathIntegrator::place_lights_along_flights() {
+  for (const ScatterJob& job : placement_jobs_) {
+    const TrackTasks& stretches = media_.stretches(job.medium);
+    for (std::uint32_t first = 0; first < stretches.count; first += path_count) {
+      make_room_for_shadow_rays(path_count);
+      place_lights(job, paths_, stretches.columns, first, std::min(first + path_count, stretches.count), shadows_,
+                   shadow_count_);
+    }
+  }
+}
+
+// What becomes of paths that met no medium.
+void VolpathIntegrator::end_flights() {
+  const bool has_surfaces = intersector_.has_surfaces();
+  for (std::uint32_t i = 0; i < path_count; ++i) {
+    if (!(paths_.ray.t_max[i] > 0)) continue;
+    if (media_.is_chromatic())
+      for (int c = 0; c < 3; ++c) {
+        paths_.throughput[c][i] *= paths_.flight.weight[c][i];
+        paths_.rescale[c][i] *= paths_.flight.weight[c][i];
+      }
+    if (paths_.flight.medium[i] != no_medium) continue;
+    if (has_surfaces && hits_[i].shape >= 0)
+      meet_surface(i);
+    else
+      escape(i);
+  }
+}
+
+// What contributions are divided by: the balance heuristic over heroes.
+float VolpathIntegrator::rescale_mean(std::uint32_t path) const {
+  if (!media_.is_chromatic()) return 1;
+  return (paths_.rescale[0][path] + paths_.rescale[1][path] + paths_.rescale[2][path]) / 3;
+}
+
+// The path sees radiance that shadow rays would have found with `light_density`, per steradian.
+void VolpathIntegrator::reach_light(std::uint32_t path, const Spectrum& radiance, float light_density) {
+  const float density = paths_.direction_density[path];
+  const float share = density < 0 ? 1 : density / (density + light_density);
+  add(paths_.radiance, path, (share / rescale_mean(path)) * spectrum_at(paths_.throughput, path) * radiance);
+}
+
+void VolpathIntegrator::escape(std::uint32_t path) {
+  const Ray ray = ray_of(path);
+  for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
+    const CompiledLight& light = scene_.lights[i];
+    const Spectrum radiance = environment_radiance(scene_, light, ray.direction);
+    if (is_zero(radiance)) continue;
+    const float density =
+        all_lights_.chance[i] > 0 ? all_lights_.chance[i] * light_pdf(scene_, light, ray, nullptr, {}) : 0;
+    reach_light(path, radiance, density);
+  }
+  paths_.ray.t_max[path] = 0;
+}
+
+void VolpathIntegrator::meet_surface(std::uint32_t path) {
+  const Ray ray = ray_of(path);
+  const std::int32_t light = scene_.shapes[static_cast<std::size_t>(hits_[path].shape)].light;
+  if (light >= 0) {
+    const auto i = static_cast<std::size_t>(light);
+    const float density = all_lights_.chance[i] * light_pdf(scene_, scene_.lights[i], ray, nullptr, hits_[path]);
+    reach_light(path, emitted_radiance(scene_, hits_[path], ray.direction), density);
+  }
+  paths_.ray.t_max[path] = 0;
+  const std::uint32_t depth = paths_.depth[path];
+  if (depth >= static_cast<std::uint32_t>(scene_.integrator.max_depth)) return;
+
+  const SurfaceHit hit = facing(hits_[path], ray.direction);
+  const Spectrum before = spectrum_at(paths_.throughput, path);
+  gather_at_surface(path, hit, before);
+  const auto width = static_cast<std::uint32_t>(scene_.width);
+  RandomStream random(scene_, static_cast<int>(paths_.ray.pixel[path] % width),
+                      static_cast<int>(paths_.ray.pixel[path] / width), static_cast<int>(paths_.ray.sample[path]));
+  const bool has_points = depth < sobol_events;
+  random.skip_to(has_points ? static_cast<std::uint32_t>(first_point_of_event[depth] + 4) / 2 : 0, has_points ? 1 : 0,
+                 hashed_numbers(depth));
+  const SurfaceSample next = sample_surface(scene_, hit, ray.direction, random);
+  Spectrum throughput = before * next.weight;
+  const float worth = max_value(throughput) / rescale_mean(path), survival = std::min(1.0f, worth / 0.05f);
+  if (!(kernel::uniform_from_bits(random.next_bits()) < survival)) return;
+  set(paths_.throughput, path, (1 / survival) * throughput);
+  const Ray onward = continued(ray, hit, next);
+  set(paths_.ray.origin, path, onward.origin);
+  set(paths_.ray.direction, path, onward.direction);
+  paths_.ray.t_max[path] = far_away;
+  paths_.direction_density[path] = next.pdf > 0 ? next.pdf : -1;
+  paths_.depth[path] = depth + 1;
+  paths_.ray.key[path] = event_key(scene_.seed, depth + 1);
+  paths_.ray.distance_u[path] = depth + 1 < sobol_events ? paths_.points[first_point_of_event[depth + 1]][path]
+                                                         : kernel::uniform_from_bits(random.next_bits());
+}
+
+void VolpathIntegrator::send_shadow_ray(std::uint32_t path, const Ray& ray, const Spectrum& value) {
+  if (is_zero(value)) return;
+  make_room_for_shadow_rays(1);
+  const std::uint32_t i = shadow_count_++;
+  shadows_.lead.t_max[i] = 0;
+  set(shadows_.ray.origin, i, ray.origin);
+  set(shadows_.ray.direction, i, ray.direction);
+  shadows_.ray.t_max[i] = ray.t_max;
+  shadows_.ray.key[i] = kernel::hash_word(paths_.ray.key[path] ^ 0x5bd1e995u);
+  shadows_.ray.pixel[i] = paths_.ray.pixel[path];
+  shadows_.ray.sample[i] = paths_.ray.sample[path];
+  shadows_.ray.hero[i] = paths_.ray.hero[path];
+  shadows_.ray.distance_u[i] =
+      kernel::random_uniform(shadows_.ray.key[i], shadows_.ray.pixel[i], shadows_.ray.sample[i], 0x80000000u);
+  shadows_.path[i] = path;
+  set(shadows_.value, i, value);
+}
+
+// Light from one light at a surface.
+void VolpathIntegrator::gather_at_surface(std::uint32_t path, const SurfaceHit& hit, const Spectrum& throughput) {
+  if (!scatters_widely(material_at(scene_, hit))) return;
+  const std::uint32_t depth = paths_.depth[path];
+  const auto width = static_cast<std::uint32_t>(scene_.width);
+  RandomStream random(scene_, static_cast<int>(paths_.ray.pixel[path] % width),
+                      static_cast<int>(paths_.ray.pixel[path] / width), static_cast<int>(paths_.ray.sample[path]));
+  random.skip_to(static_cast<std::uint32_t>(placement_point + 2) / 2, depth == 0 ? 1 : 0, hashed_numbers(depth) + 128);
+  const float u = depth < sobol_events ? paths_.points[first_point_of_event[depth] + 1][path]
+                                       : kernel::uniform_from_bits(random.next_bits());
+  const int picked = all_lights_.pick(u);
+  if (picked < 0) return;
+  const auto i = static_cast<std::size_t>(picked);
+  const Ray ray = ray_of(path);
+  const vec3 start = leave_surface(ray.at(hit.t), hit.normal, hit.t);
+  const LightSample s = sample_light(scene_, scene_.lights[i], start, &hit.shading_normal, random);
+  float density = 0;
+  const Spectrum f = eval_surface(scene_, hit, ray.direction, s.ray.direction, density);
+  const float light_density = all_lights_.chance[i] * s.pdf;
+  const float share = s.pdf > 0 ? light_density / (light_density + density) : 1;
+  send_shadow_ray(path, s.ray, (share / (all_lights_.chance[i] * rescale_mean(path))) * throughput * f * s.value);
+}
+
+// Light at collisions from lights that are neither points nor directions.
+void VolpathIntegrator::answer_requests(const ScatterJob& job, std::uint32_t count) {
+  const CompiledMedium& medium = scene_.media[static_cast<std::size_t>(job.medium)];
+  const bool is_placed = medium.grid < 0 && !point_lights_.lights.empty();
+  const LightTable& table = is_placed ? other_lights_ : all_lights_;
+  const auto width = static_cast<std::uint32_t>(scene_.width);
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const LightRequest& request = requests_[k];
+    const int picked = table.pick(request.u);
+    if (picked < 0) continue;
+    const auto i = static_cast<std::size_t>(picked);
+    const std::uint32_t path = request.path, depth = paths_.depth[path] - 1;
+    RandomStream random(scene_, static_cast<int>(paths_.ray.pixel[path] % width),
+                        static_cast<int>(paths_.ray.pixel[path] / width), static_cast<int>(paths_.ray.sample[path]));
+    random.skip_to(static_cast<std::uint32_t>(placement_point + 2) / 2, depth == 0 ? 1 : 0,
+                   hashed_numbers(depth) + 128);
+    const vec3 p(request.position[0], request.position[1], request.position[2]);
+    const vec3 direction(request.direction[0], request.direction[1], request.direction[2]);
+    const LightSample s = sample_light(scene_, scene_.lights[i], p, nullptr, random);
+    const float phase = phase_eval(medium, std::clamp(dot(s.ray.direction, direction), -1.0f, 1.0f));
+    const float light_density = table.chance[i] * s.pdf;
+    const float share = s.pdf > 0 ? light_density / (light_density + phase) : 1;
+    const Spectrum worth{{request.value[0], request.value[1], request.value[2]}};
+    send_shadow_ray(path, s.ray, (share * phase / table.chance[i]) * worth * s.value);
+  }
+}
+
+// Sends the shadow rays on their way once there is no room for `more`.
+void VolpathIntegrator::make_room_for_shadow_rays(std::uint32_t more) {
+  if (shadow_count_ + more > shadow_room) gather_shadow_rays();
+}
+
+void VolpathIntegrator::gather_shadow_rays() {
+  if (shadow_count_ == 0) return;
+  if (intersector_.has_surfaces()) {
+    shadow_rays_.clear();
+    for (std::uint32_t i = 0; i < shadow_count_; ++i)
+      shadow_rays_.push_back({at(shadows_.ray.origin, i), at(shadows_.ray.direction, i), shadows_.ray.t_max[i]});
+    blocked_.resize(shadow_count_);
+    intersector_.occluded(shadow_rays_, blocked_);
+    for (std::uint32_t i = 0; i < shadow_count_; ++i) {
+      if (!blocked_[i]) continue;
+      shadows_.ray.t_max[i] = shadows_.lead.t_max[i] = 0;
+      set(shadows_.value, i, Spectrum{});
+    }
+  }
+  const auto pass = [&](const RayColumns& rays) {
+    shadow_media_.find_stretches(rays, shadow_count_);
+    shadow_media_.find_transmittance(shadow_count_, transmittance_);
+    for (std::uint32_t i = 0; i < shadow_count_; ++i)
+      for (int c = 0; c < 3; ++c) shadows_.value[c][i] *= transmittance_[media_.is_chromatic() ? c : 0][i];
+  };
+  pass(shadows_.ray);
+  if (!placement_jobs_.empty()) pass(shadows_.lead);
+  for (std::uint32_t i = 0; i < shadow_count_; ++i)
+    for (int c = 0; c < 3; ++c) paths_.radiance[c][shadows_.path[i]] += shadows_.value[c][i];
+  shadow_count_ = 0;
+}
+
+// Hands in the samples whose paths have ended.
+void VolpathIntegrator::finish_paths() {
+  for (std::uint32_t i = 0; i < path_count; ++i) {
+    if (paths_.ray.t_max[i] > 0 || paths_.target[i] == idle) continue;
+    sums_[paths_.target[i]] = spectrum_at(paths_.radiance, i);
+    paths_.target[i] = idle;
+    idle_.push_back(i);
+  }
+}
+
+}  // namespace brume

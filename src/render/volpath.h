@@ -1,0 +1,102 @@
+// The integrator "volpath": path tracing through media and between surfaces, unbiased, in SIMD lanes.
+//
+// Many paths at a time go through the same stages, each a loop over columns: surfaces ahead (Embree), the first
+// collision on the way (track.h), scattering by media (scatter.h) and by surfaces, shadow rays. A path that ends makes
+// room for a new one, so that the loops stay full.
+//
+// Light is gathered by shadow rays to one light a scattering, chosen in proportion to power, and by paths that meet a
+// light, with the balance heuristic of multiple importance sampling. A constant infinite light is left to paths alone:
+// they find it with less noise than shadow rays do.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "image/film.h"
+#include "image/filter.h"
+#include "render/paths.h"
+#include "render/sample_points.h"
+#include "render/scatter.h"
+
+namespace brume {
+
+// Lights that shadow rays go to, each with a chance in proportion to its power.
+struct LightTable {
+  std::vector<DeltaLight> delta_lights;  // the first of `lights`
+  std::vector<int> lights;
+  std::vector<float> cdf;     // of `lights`
+  std::vector<float> chance;  // by light of the scene; 0 for those that are not in the table
+
+  // The light for u in [0, 1), below 0 where there is none.
+  int pick(float u) const;
+};
+
+// One to each worker.
+class VolpathIntegrator {
+ public:
+  VolpathIntegrator(const CompiledScene& scene, const Intersector& intersector, const MediaAlongRay& media,
+                    const Filter& filter);
+
+  // Adds samples [first, last) of the film's pixels in `tile` to the film.
+  void render_tile(const PixelBox& tile, int first, int last, Film& film);
+
+  std::optional<kernel::vec3> too_many_media() const {
+    return media_.too_many_media() ? media_.too_many_media() : shadow_media_.too_many_media();
+  }
+  std::int64_t majorant_violations() const {
+    return media_.counts().majorant_violations + shadow_media_.counts().majorant_violations;
+  }
+
+ private:
+  struct Tile {
+    PixelBox pixels;
+    int first, last;
+    std::uint32_t sample_count;
+    std::uint32_t next = 0;  // sample to be started
+  };
+
+  void make_jobs();
+  void start_paths(Tile& tile);
+  void start_path(std::uint32_t path, std::uint32_t fresh, const Tile& tile, std::uint32_t target);
+  void find_surfaces();
+  void place_lights_along_flights();
+  void end_flights();
+  void escape(std::uint32_t path);
+  void meet_surface(std::uint32_t path);
+  void reach_light(std::uint32_t path, const Spectrum& radiance, float light_density);
+  void gather_at_surface(std::uint32_t path, const SurfaceHit& hit, const Spectrum& throughput);
+  void answer_requests(const ScatterJob& job, std::uint32_t count);
+  void send_shadow_ray(std::uint32_t path, const Ray& ray, const Spectrum& value);
+  void make_room_for_shadow_rays(std::uint32_t more);
+  void gather_shadow_rays();
+  void finish_paths();
+
+  Ray ray_of(std::uint32_t path) const;
+  float rescale_mean(std::uint32_t path) const;
+
+  const CompiledScene& scene_;
+  const Intersector& intersector_;
+  const Filter& filter_;
+  MediumTasks media_, shadow_media_;
+  ColumnMemory memory_;
+  PathColumns paths_;
+  ShadowColumns shadows_;
+  std::uint32_t shadow_count_ = 0;
+  float* transmittance_[3] = {};
+  std::vector<SurfaceHit> hits_;  // by path; shape below 0: nothing ahead
+  SampleColumns fresh_;
+  float* fresh_points_[point_dimensions + 2] = {};
+
+  LightTable all_lights_, point_lights_, other_lights_;
+  std::vector<ScatterJob> jobs_;            // by medium: at collisions
+  std::vector<ScatterJob> placement_jobs_;  // by medium: along flights; none where no light is placed
+  std::vector<LightRequest> requests_;
+
+  std::vector<std::uint32_t> idle_;  // paths that are to be started
+  std::vector<Spectrum> sums_;       // by sample of the tile
+  std::vector<float> filter_weights_;
+  std::vector<Ray> shadow_rays_;
+  std::vector<std::uint8_t> blocked_;
+};
+
+}  // namespace brume

@@ -1,0 +1,298 @@
+#include "scene/read_ply.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+
+#include "base/file.h"
+
+namespace brume {
+
+namespace {
+
+// What is wrong with the file, without its name.
+struct Fault {
+  std::string message;
+};
+
+enum class Format { ascii, little_endian, big_endian };
+
+struct Type {
+  char kind;  // 'i', 'u' or 'f'
+  int size;   // bytes
+};
+
+std::optional<Type> type_named(std::string_view name) {
+  struct Named {
+    std::string_view old_name, name;
+    Type type;
+  };
+  static constexpr Named types[] = {{"char", "int8", {'i', 1}},     {"uchar", "uint8", {'u', 1}},
+                                    {"short", "int16", {'i', 2}},   {"ushort", "uint16", {'u', 2}},
+                                    {"int", "int32", {'i', 4}},     {"uint", "uint32", {'u', 4}},
+                                    {"float", "float32", {'f', 4}}, {"double", "float64", {'f', 8}}};
+  for (const Named& t : types)
+    if (name == t.old_name || name == t.name) return t.type;
+  return std::nullopt;
+}
+
+struct Property {
+  std::string name;
+  Type type;
+  std::optional<Type> count_type;  // of a list
+};
+
+struct Element {
+  std::string name;
+  std::size_t count = 0;
+  std::vector<Property> properties;
+
+  int index_of(std::string_view property) const {
+    for (std::size_t i = 0; i < properties.size(); ++i)
+      if (properties[i].name == property) return static_cast<int>(i);
+    return -1;
+  }
+};
+
+struct Header {
+  Format format = Format::ascii;
+  std::vector<Element> elements;
+};
+
+class Text {
+ public:
+  explicit Text(std::string_view rest) : rest_(rest) {}
+
+  // The next line, without its end, which may be that of any system.
+  std::string_view line() {
+    const std::size_t length = std::min(rest_.find('\n'), rest_.size());
+    std::string_view line = rest_.substr(0, length);
+    rest_.remove_prefix(std::min(length + 1, rest_.size()));
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return line;
+  }
+
+  // The next word, "" at the end.
+  std::string_view word() {
+    constexpr std::string_view blanks = " \t\r\n";
+    rest_.remove_prefix(std::min(rest_.find_first_not_of(blanks), rest_.size()));
+    const std::string_view word = rest_.substr(0, rest_.find_first_of(blanks));
+    rest_.remove_prefix(word.size());
+    return word;
+  }
+
+  std::string_view bytes(std::size_t count) {
+    if (count > rest_.size()) return {};
+    const std::string_view bytes = rest_.substr(0, count);
+    rest_.remove_prefix(count);
+    return bytes;
+  }
+
+  std::string_view rest() const { return rest_; }
+
+ private:
+  std::string_view rest_;
+};
+
+Type need_type(std::string_view name) {
+  if (const auto type = type_named(name)) return *type;
+  throw Fault{fmt::format("has a property of an unknown type \"{}\"", name.substr(0, 40))};
+}
+
+Property read_property(Text& words) {
+  std::string_view type = words.word();
+  Property property;
+  if (type == "list") {
+    property.count_type = need_type(words.word());
+    if (property.count_type->kind == 'f') throw Fault{"has a list whose count is not an integer"};
+    type = words.word();
+  }
+  property.type = need_type(type);
+  property.name = words.word();
+  return property;
+}
+
+Header read_header(Text& text) {
+  if (text.line() != "ply") throw Fault{"is not a .ply file: it does not begin with the line \"ply\""};
+  Header header;
+  bool has_format = false;
+  for (;;) {
+    if (text.rest().empty()) throw Fault{"ends within its header"};
+    Text words(text.line());
+    const std::string_view keyword = words.word();
+    if (keyword == "end_header") break;
+    if (keyword == "format") {
+      const std::string_view format = words.word();
+      has_format = true;
+      if (format == "binary_little_endian")
+        header.format = Format::little_endian;
+      else if (format == "binary_big_endian")
+        header.format = Format::big_endian;
+      else if (format != "ascii")
+        throw Fault{fmt::format("has the unknown format \"{}\"", format.substr(0, 40))};
+    } else if (keyword == "element") {
+      Element element;
+      element.name = words.word();
+      const std::string_view count = words.word();
+      const auto [end, code] = std::from_chars(count.data(), count.data() + count.size(), element.count);
+      if (code != std::errc() || end != count.data() + count.size())
+        throw Fault{fmt::format("has an element \"{}\" without a count", element.name.substr(0, 40))};
+      header.elements.push_back(std::move(element));
+    } else if (keyword == "property") {
+      if (header.elements.empty()) throw Fault{"has a property before any element"};
+      header.elements.back().properties.push_back(read_property(words));
+    } else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
+      throw Fault{fmt::format("has an unknown line \"{}\" in its header", keyword.substr(0, 40))};
+    }
+  }
+  if (!has_format) throw Fault{"has no line \"format\" in its header"};
+  return header;
+}
+
+// The values after the header, one after another. Every value takes at least a byte of the file, so what is made of
+// them is bounded by its size.
+class Values {
+ public:
+  Values(Text text, Format format) : text_(text), format_(format) {}
+
+  double next(Type type) {
+    if (format_ == Format::ascii) return parse(text_.word());
+    const std::string_view bytes = text_.bytes(static_cast<std::size_t>(type.size));
+    if (bytes.empty()) throw Fault{"ends before its last value"};
+    std::array<char, 8> b{};
+    std::copy(bytes.begin(), bytes.end(), b.begin());
+    if ((format_ == Format::big_endian) == (std::endian::native == std::endian::little))
+      std::reverse(b.begin(), b.begin() + type.size);
+    if (type.kind == 'f') return type.size == 4 ? static_cast<double>(as<float>(b)) : as<double>(b);
+    if (type.size == 1) return type.kind == 'i' ? as<std::int8_t>(b) : as<std::uint8_t>(b);
+    if (type.size == 2) return type.kind == 'i' ? as<std::int16_t>(b) : as<std::uint16_t>(b);
+    return type.kind == 'i' ? as<std::int32_t>(b) : as<std::uint32_t>(b);
+  }
+
+ private:
+  template <class T>
+  static T as(const std::array<char, 8>& bytes) {
+    T value;
+    std::memcpy(&value, bytes.data(), sizeof value);
+    return value;
+  }
+
+  static double parse(std::string_view word) {
+    if (word.empty()) throw Fault{"ends before its last value"};
+    double value = 0;
+    const char* begin = word.data() + (word.front() == '+' ? 1 : 0);
+    const auto [end, code] = std::from_chars(begin, word.data() + word.size(), value);
+    if (code != std::errc() || end != word.data() + word.size())
+      throw Fault{fmt::format("has \"{}\" where a number should be", word.substr(0, 40))};
+    return value;
+  }
+
+  Text text_;
+  Format format_;
+};
+
+// Reads one element of its kind; `values` gets the properties that are no lists, `list` that with index `list_index`.
+void read_element(const Element& element, Values& source, std::vector<double>& values, int list_index,
+                  std::vector<double>& list) {
+  for (std::size_t i = 0; i < element.properties.size(); ++i) {
+    const Property& property = element.properties[i];
+    values[i] = source.next(property.count_type.value_or(property.type));
+    if (!property.count_type) continue;
+    if (values[i] < 0 || values[i] != std::floor(values[i])) throw Fault{"has a list with a count below 0"};
+    const bool wanted = static_cast<int>(i) == list_index;
+    if (wanted) list.clear();
+    for (double k = 0; k < values[i]; ++k) {
+      const double item = source.next(property.type);
+      if (wanted) list.push_back(item);
+    }
+  }
+}
+
+Vector3 finite(double x, double y, double z) {
+  for (const double v : {x, y, z})
+    if (!(std::abs(v) <= static_cast<double>(std::numeric_limits<float>::max())))  // also where it is not a number
+      throw Fault{"has a vertex that is not finite"};
+  return {x, y, z};
+}
+
+void read_vertices(const Element& element, Values& source, TriangleMeshShape& mesh) {
+  std::array<int, 6> where{};
+  static constexpr std::string_view names[] = {"x", "y", "z", "nx", "ny", "nz"};
+  for (std::size_t i = 0; i < 6; ++i) where[i] = element.index_of(names[i]);
+  if (std::min({where[0], where[1], where[2]}) < 0) throw Fault{"has vertices without x, y and z"};
+  const bool has_normals = std::min({where[3], where[4], where[5]}) >= 0;
+  std::vector<double> values(element.properties.size()), list;
+  const auto at = [&](std::size_t i) { return values[static_cast<std::size_t>(where[i])]; };
+  for (std::size_t i = 0; i < element.count; ++i) {
+    read_element(element, source, values, -1, list);
+    mesh.positions.push_back(finite(at(0), at(1), at(2)));
+    if (has_normals) mesh.normals.push_back(finite(at(3), at(4), at(5)));
+  }
+}
+
+void read_faces(const Element& element, Values& source, PlyMesh& ply) {
+  int corners = element.index_of("vertex_indices");
+  if (corners < 0) corners = element.index_of("vertex_index");
+  if (corners < 0 || !element.properties[static_cast<std::size_t>(corners)].count_type)
+    throw Fault{"has faces without a list vertex_indices"};
+  std::vector<double> values(element.properties.size()), list;
+  for (std::size_t i = 0; i < element.count; ++i) {
+    read_element(element, source, values, corners, list);
+    std::array<std::uint32_t, 4> v{};
+    if (list.size() != 3 && list.size() != 4) {
+      ++ply.skipped_faces;
+      continue;
+    }
+    for (std::size_t k = 0; k < list.size(); ++k) {
+      if (!(list[k] >= 0 && list[k] < 4294967296.0 && list[k] == std::floor(list[k])))
+        throw Fault{fmt::format("has a face with the vertex {}", list[k])};
+      v[k] = static_cast<std::uint32_t>(list[k]);
+    }
+    ply.mesh.triangles.push_back({v[0], v[1], v[2]});
+    if (list.size() == 4) ply.mesh.triangles.push_back({v[0], v[2], v[3]});
+  }
+}
+
+PlyMesh decode_ply(std::string_view bytes) {
+  if (bytes.starts_with("\x1f\x8b")) throw Fault{"is compressed by gzip: unpack it"};
+  Text text(bytes);
+  const Header header = read_header(text);
+  Values values(text, header.format);
+  PlyMesh ply;
+  for (const Element& element : header.elements) {
+    if (element.properties.empty()) continue;
+    if (element.name == "vertex") {
+      read_vertices(element, values, ply.mesh);
+    } else if (element.name == "face") {
+      read_faces(element, values, ply);
+    } else {
+      std::vector<double> ignored(element.properties.size()), list;
+      for (std::size_t i = 0; i < element.count; ++i) read_element(element, values, ignored, -1, list);
+    }
+  }
+  if (ply.mesh.triangles.empty()) throw Fault{"has no face of three or four corners"};
+  for (const auto& triangle : ply.mesh.triangles)
+    for (const std::uint32_t v : triangle)
+      if (v >= ply.mesh.positions.size())
+        throw Fault{fmt::format("has a face with the vertex {}, and {} vertices in all", v, ply.mesh.positions.size())};
+  return ply;
+}
+
+}  // namespace
+
+PlyMesh read_ply(const std::string& path) {
+  try {
+    return decode_ply(read_file(path));
+  } catch (const Fault& fault) {
+    throw InputError(path, fault.message);
+  }
+}
+
+}  // namespace brume

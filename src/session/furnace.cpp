@@ -1,0 +1,104 @@
+#include "session/furnace.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/parallel.h"
+#include "compile/compile.h"
+
+namespace brume {
+
+namespace {
+
+constexpr std::uint32_t path_count = 1024;  // as many as volpath has in flight
+
+}  // namespace
+
+CompiledScene furnace_scene(int size, int bits, int threads) {
+  SceneDescription scene;
+  scene.integrator.name = "volpath";
+  MediumDescription cloud;
+  cloud.name = "cloud";
+  cloud.kind = CloudMedium{size, 0};
+  cloud.storage_bits = bits;
+  cloud.sigma_a = constant_spectrum(0);
+  cloud.phase_parameters = {0.85f};
+  scene.media = {cloud};
+  scene.shapes.push_back({{}, false, InterfaceMaterial{}, "cloud", "", VolumeShape{}, {}});
+  std::vector<Diagnostic> warnings;
+  CompiledScene compiled = compile(scene, thread_count(threads), warnings);
+  CompiledMedium& medium = compiled.media.front();
+  const float edge = 2;  // of the cloud's box
+  medium.sigma_t = medium.sigma_s = constant_spectrum(100 / (edge * compiled.grids.front().max_density));
+  return compiled;
+}
+
+FurnacePaths::FurnacePaths(const CompiledScene& scene)
+    : scene_(scene),
+      intersector_(scene),
+      media_along_ray_(scene, intersector_),
+      media_(scene, intersector_, media_along_ray_),
+      memory_(path_count) {
+  paths_.ray = memory_.rays();
+  paths_.flight.t = memory_.floats();
+  paths_.flight.medium = memory_.integers();
+  for (auto* columns : {&paths_.flight.weight, &paths_.throughput, &paths_.rescale, &paths_.radiance, &shadows_.value})
+    memory_.make_floats(*columns);
+  paths_.direction_density = memory_.floats();
+  paths_.depth = memory_.words();
+  paths_.target = memory_.words();
+  for (float*& column : paths_.points) column = memory_.floats();
+  shadows_.ray = memory_.rays();
+  shadows_.lead = memory_.rays();
+  shadows_.path = memory_.words();
+
+  const CompiledMedium& medium = scene.media.front();
+  job_.max_depth = std::numeric_limits<int>::max();
+  job_.phase = medium.phase;
+  std::copy(medium.phase_prepared.begin(), medium.phase_prepared.end(), job_.phase_numbers);
+  for (int c = 0; c < 3; ++c) {
+    job_.sigma_t[c] = medium.sigma_t[c];
+    job_.sigma_s[c] = medium.sigma_s[c];
+  }
+  for (std::uint32_t path = 0; path < path_count; ++path) start(path);
+}
+
+// At a random place of the cloud's side z = -1, about along +z.
+void FurnacePaths::start(std::uint32_t path) {
+  const std::uint32_t number = started_++;
+  const auto random = [&](std::uint32_t i) { return kernel::random_uniform(1, 0, number, i); };
+  const kernel::vec3 origin(2 * random(0) - 1, 1.2f * random(1) - 0.6f, -1);
+  const kernel::vec3 direction = normalize(kernel::vec3(0.3f * random(2) - 0.15f, 0.3f * random(3) - 0.15f, 1));
+  const float from[] = {origin.x, origin.y, origin.z}, towards[] = {direction.x, direction.y, direction.z};
+  for (int i = 0; i < 3; ++i) {
+    paths_.ray.origin[i][path] = from[i];
+    paths_.ray.direction[i][path] = towards[i];
+    paths_.throughput[i][path] = paths_.rescale[i][path] = 1;
+    paths_.radiance[i][path] = 0;
+  }
+  paths_.ray.t_max[path] = far_away;
+  paths_.ray.key[path] = event_key(0, 0);
+  paths_.ray.pixel[path] = number;
+  paths_.ray.sample[path] = paths_.ray.hero[path] = 0;
+  for (std::uint32_t i = 0; i < point_dimensions; ++i) paths_.points[i][path] = random(4 + i);
+  paths_.ray.distance_u[path] = paths_.points[0][path];
+  paths_.direction_density[path] = -1;
+  paths_.depth[path] = 0;
+  paths_.target[path] = path;
+}
+
+std::int64_t FurnacePaths::advance() {
+  const auto events = [&] { return media_.counts().steps + media_.counts().look_ups; };
+  const std::int64_t before = events();
+  media_.find_stretches(paths_.ray, path_count);
+  media_.find_collisions(paths_.ray, path_count, paths_.flight);
+  for (std::uint32_t path = 0; path < path_count; ++path)
+    if (paths_.flight.medium[path] == no_medium) paths_.ray.t_max[path] = 0;
+  std::uint32_t shadow_count = 0;
+  scatter_paths(job_, paths_, path_count, shadows_, shadow_count, nullptr);
+  for (std::uint32_t path = 0; path < path_count; ++path)
+    if (!(paths_.ray.t_max[path] > 0)) start(path);
+  return events() - before;
+}
+
+}  // namespace brume

@@ -1,0 +1,36 @@
+// Paths through a cloud in a white furnace: what tracking costs, without lights, surfaces and film.
+#pragma once
+
+#include <cstdint>
+
+#include "render/scatter.h"
+
+namespace brume {
+
+// The procedural cloud with `size` voxels along its longest side, kept with `bits` bits a voxel; optical depth 100
+// across at its densest, albedo 1, henyey_greenstein with g = 0.85.
+CompiledScene furnace_scene(int size, int bits, int threads);
+
+class FurnacePaths {
+ public:
+  explicit FurnacePaths(const CompiledScene& scene);
+
+  // Brings all paths to their next collision and scatters them there; those that leave the cloud begin anew. Returns
+  // the number of events: steps through cells of majorants, and look-ups of the density.
+  std::int64_t advance();
+
+ private:
+  void start(std::uint32_t path);
+
+  const CompiledScene& scene_;
+  Intersector intersector_;
+  MediaAlongRay media_along_ray_;
+  MediumTasks media_;
+  ColumnMemory memory_;
+  PathColumns paths_;
+  ShadowColumns shadows_;
+  ScatterJob job_;
+  std::uint32_t started_ = 0;
+};
+
+}  // namespace brume

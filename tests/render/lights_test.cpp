@@ -1,0 +1,309 @@
+// Lights: closed forms of what they give, and emitters as bright as the sky behind them, which must not be seen.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "compile/compile.h"
+#include "image/temporary_folder.h"
+#include "kernel/statistics.h"
+#include "render/backend.h"
+#include "render/estimates.h"
+#include "render/lights.h"
+#include "render/path_tracers.h"
+
+namespace brume {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+ShapeDescription emitter(decltype(ShapeDescription::kind) kind, const Transform& place, bool two_sided = false) {
+  ShapeDescription s;
+  s.kind = std::move(kind);
+  s.world_from_object = place;
+  s.material = DiffuseMaterial{};
+  std::get<DiffuseMaterial>(s.material).reflectance = {};
+  s.light = AreaLight{constant_spectrum(1), two_sided, 0};
+  return s;
+}
+
+CompiledScene compiled(const SceneDescription& scene) {
+  std::vector<Diagnostic> warnings;
+  return compile(scene, 1, warnings);
+}
+
+// As estimate(), of a scene in which something was changed after compiling.
+Estimate estimate_compiled(CompiledScene scene, int edge) {
+  scene.width = scene.height = edge;
+  const auto backend = make_cpu_backend();
+  backend->prepare(scene);
+  Film film(edge, edge);
+  backend->render(0, 1, 2, film, [](double) { return true; });
+  const Image image = film.image();
+  double sum = 0, squares = 0;
+  const double n = edge * edge;
+  for (std::size_t i = 0; i < image.pixels.size(); i += 3) {
+    const auto v = static_cast<double>(image.pixels[i]);
+    sum += v;
+    squares += v * v;
+  }
+  return {sum / n, std::sqrt((squares / n - sum * sum / n / n) / (n - 1))};
+}
+
+// A grey square at z = 0, seen from z = -0.5, with emitters behind the camera.
+SceneDescription lit_square(const char* integrator, std::vector<ShapeDescription> emitters) {
+  SceneDescription s = needle_scene({0, 0, -0.5});
+  s.integrator.name = integrator;
+  s.integrator.max_depth = 1;
+  s.shapes = std::move(emitters);
+  s.shapes.push_back(square_facing_z({0, 0, 0}, 0.5, 0.5f));
+  return s;
+}
+
+class Lights : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(PathTracers, Lights, path_tracers(), integrator_name);
+
+// E = pi L R^2 / (R^2 + h^2) on the axis of a disk.
+// Catches a disk that sends out no light on its front, or some on its back.
+TEST_P(Lights, DiskGivesItsIrradiance) {
+  const double expected = 0.5 * 0.36 / (0.36 + 1);
+  expect_estimate(lit_square(GetParam(), {emitter(DiskShape{0.6, 0, 0, 360}, translate({0, 0, -1}))}), expected, 0,
+                  1e-3);
+  SceneDescription away =
+      lit_square(GetParam(), {emitter(DiskShape{0.6, 0, 0, 360}, translate({0, 0, -1}) * rotate(180, {1, 0, 0}))});
+  EXPECT_EQ(estimate(away, 10000).mean, 0);
+  std::get<DiskShape>(away.shapes[0].kind).radius = 0.66;
+  away.shapes[0].light->two_sided = true;
+  expect_rejected(away, expected);
+}
+
+// A ring is a disk less another, and half of it gives half.
+TEST_P(Lights, HalfARingGivesItsIrradiance) {
+  const double expected = 0.25 * (0.36 / (0.36 + 1) - 0.09 / (0.09 + 1));
+  expect_estimate(lit_square(GetParam(), {emitter(DiskShape{0.6, 0, 0.3, 180}, translate({0, 0, -1}))}), expected, 0,
+                  1e-3);
+}
+
+// E = pi L (R / d)^2, and by reciprocity the light's power says nothing else.
+TEST_P(Lights, SphereGivesItsIrradiance) {
+  const auto sphere = [](double radius) { return emitter(SphereShape{radius}, translate({0, 0, -2})); };
+  expect_estimate(lit_square(GetParam(), {sphere(0.7)}), 0.5 * 0.49 / 4, 0, 1e-3);
+  expect_rejected(lit_square(GetParam(), {sphere(0.74)}), 0.5 * 0.49 / 4);
+}
+
+// The power of a sphere whose area is 4 pi r^2 is pi L times that, and 1 by `power`.
+TEST_P(Lights, PowerMakesTheRadiance) {
+  ShapeDescription sphere = emitter(SphereShape{0.7}, translate({0, 0, -2}));
+  sphere.light->power = 10;
+  expect_estimate(lit_square(GetParam(), {sphere}), 0.5 * 0.49 / 4 * 10 / (4 * pi * pi * 0.49), 0, 1e-3);
+}
+
+// Emitters of radiance 1 under a sky of radiance 1 cannot be seen, nor can what they light: a grey square shows its
+// reflectance. So for every kind of emitter, alone or with others, in view of the square or around it.
+// Catches a density of light sampling that is not that of the samples, or not that of the weights against the surface's
+// own directions; its twin is a light that is chosen twice as often as its share says.
+struct Emitters {
+  const char* name;
+  std::vector<ShapeDescription> shapes;
+};
+
+std::vector<Emitters> emitter_cases() {
+  const Transform askew = translate({0.2, 0.1, -1.5}) * rotate(50, {1, 2, 3}) * scale({1.2, 0.3, 0.6});
+  TriangleMeshShape mesh = std::get<TriangleMeshShape>(box_shape({-0.3, -0.2, -1.6}, {0.3, 0.5, -0.9}, "").kind);
+  const ShapeDescription ball = emitter(SphereShape{0.5}, translate({0.3, 0, -1.5}));
+  const ShapeDescription tube = emitter(CylinderShape{0.8, -1, 1.2, 250}, askew, true);
+  const ShapeDescription disk = emitter(DiskShape{0.8, 0.1, 0.2, 300}, askew, true);
+  const ShapeDescription quad = emitter(QuadShape{}, translate({0.5, 0, -1.2}) * rotate(100, {1, 0, 0}), true);
+  return {{"sphere", {ball}},
+          {"ellipsoid", {emitter(SphereShape{1}, askew)}},
+          {"around", {emitter(SphereShape{3}, scale({1, 1.5, 2}), true)}},
+          {"disk", {disk}},
+          {"cylinder", {tube}},
+          {"quad", {quad}},
+          {"mesh", {emitter(mesh, Transform())}},
+          {"several", {tube, quad, emitter(mesh, translate({-0.9, 0, 0}))}}};
+}
+
+TEST_P(Lights, EmittersAsBrightAsTheSkyCannotBeSeen) {
+  for (const Emitters& emitters : emitter_cases()) {
+    std::printf("%s\n", emitters.name);
+    SceneDescription s = lit_square(GetParam(), emitters.shapes);
+    s.lights = {sky(1)};
+    expect_estimate(s, 0.5, 0, 2e-3);
+    CompiledScene faulty = compiled(s);
+    faulty.lights.back().chance *= 0.5f;
+    const Estimate e = estimate_compiled(std::move(faulty), 600);
+    EXPECT_GT(std::abs(e.mean - 0.5), 8 * e.standard_error) << emitters.name;
+  }
+}
+
+// The same in a medium that scatters forwards, where directions are those of the phase function.
+TEST_P(Lights, EmittersAsBrightAsTheSkyCannotBeSeenInFog) {
+  SceneDescription s = needle_scene({0, 0, -4});
+  s.integrator.name = GetParam();
+  s.integrator.max_depth = 1000;
+  s.media = {homogeneous_medium("fog", 0, 0.7f)};
+  set_phase(s.media[0], "henyey_greenstein", {0.6f});
+  for (const Emitters& emitters : emitter_cases())
+    if (std::string(emitters.name) == "several") s.shapes = emitters.shapes;
+  // Of the light that black emitters stop, they send out as much.
+  s.shapes.push_back(sphere_shape({0, 0, 0}, 3, "fog"));
+  s.lights = {sky(1)};
+  expect_estimate(s, 1, 0, 2e-3);
+  s.shapes[0].light->radiance = constant_spectrum(0.8f);
+  expect_rejected(s, 1);
+}
+
+// Images. Their pixels are random, so that no symmetry hides a fault.
+class Images : public ::testing::Test {
+ protected:
+  std::string write(int width, int height, std::uint32_t seed, float constant = 0) {
+    std::mt19937 random(seed);
+    Image image{width, height, {}};
+    for (int i = 0; i < 3 * width * height; ++i)
+      image.pixels.push_back(constant > 0 ? constant : std::pow(static_cast<float>(random() >> 8) * 0x1p-24f, 4.0f));
+    const std::string path = folder_.file("sky" + std::to_string(files_++) + ".pfm");
+    write_image(path, image, {});
+    return path;
+  }
+
+  static SceneDescription scene(const char* integrator, const std::string& path) {
+    SceneDescription s = lit_square(integrator, {});
+    s.lights = {{InfiniteLight{constant_spectrum(1), path, rotate(30, {1, 2, 3}), 0}, {}}};
+    return s;
+  }
+
+  TemporaryFolder folder_;
+  int files_ = 0;
+};
+
+// What a facing square of reflectance 0.5 sends back, by quadrature over directions of the half-space.
+double reflected(const CompiledScene& scene, double turn) {
+  constexpr int rings = 600, sectors = 1200;
+  double sum = 0;
+  for (int i = 0; i < rings; ++i)
+    for (int j = 0; j < sectors; ++j) {
+      const double z = -std::sqrt((i + 0.5) / rings), r = std::sqrt(1 - z * z);  // equal steps of the cosine's integral
+      const double phi = 2 * pi * (j + 0.5) / sectors + turn;
+      const kernel::vec3 d(static_cast<float>(r * std::cos(phi)), static_cast<float>(r * std::sin(phi)),
+                           static_cast<float>(z));
+      sum += static_cast<double>(environment_radiance(scene, scene.lights[0], d)[0]);
+    }
+  return 0.5 * sum / (rings * sectors);
+}
+
+TEST_F(Images, LightAsTheirPixelsSay) {
+  for (const int width : {16, 32}) {
+    SceneDescription s = scene("reference", write(width, 16, 7));
+    const double expected = reflected(compiled(s), 0);
+    expect_estimate(s, expected, 1e-3 * expected, 2e-3);
+    // The twin is the same image, turned.
+    std::get<InfiniteLight>(s.lights[0].kind).world_from_light = rotate(120, {1, 2, 3});
+    expect_rejected(s, expected);
+  }
+}
+
+TEST_F(Images, OfOneColourAreTheConstantSky) {
+  for (const int width : {8, 16}) expect_estimate(scene("reference", write(width, 8, 0, 0.75f)), 0.375, 0, 1e-3);
+}
+
+// Catches an image whose illuminance is that of another hemisphere, or of all directions: the lower half is black here.
+// pbrt's sum over pixels' centres is exact to a few thousandths.
+TEST_F(Images, AreScaledToTheirIlluminance) {
+  Image image{64, 32, {}};
+  for (int i = 0; i < 3 * 64 * 32; ++i) image.pixels.push_back(i < 3 * 64 * 16 ? 0.3f : 0.0f);
+  const std::string path = folder_.file("dome.pfm");
+  write_image(path, image, {});
+  SceneDescription s = scene("reference", path);
+  auto& light = std::get<InfiniteLight>(s.lights[0].kind);
+  light.world_from_light = rotate(180, {1, 0, 0});  // its +z is where the square faces
+  light.illuminance = 5;
+  expect_estimate(s, 0.5 * 5 / pi, 3e-3, 1e-3);
+}
+
+// pbrt's orientation: +z is the middle of an equal-area image and the top of an equirectangular one; +x is to the right
+// of the middle and at the left edge, +y below the middle and a quarter to the right.
+TEST_F(Images, HaveTheirDirectionsWherePbrtHasThem) {
+  const auto pixel_at = [&](int width, int height, kernel::vec3 d) {
+    Image image{width, height, {}};
+    for (int i = 0; i < 3 * width * height; ++i) image.pixels.push_back(static_cast<float>(i / 3));
+    const std::string path = folder_.file("numbers.pfm");
+    write_image(path, image, {});
+    SceneDescription s = scene("reference", path);
+    std::get<InfiniteLight>(s.lights[0].kind).world_from_light = Transform();
+    const CompiledScene c = compiled(s);
+    const int n = static_cast<int>(environment_radiance(c, c.lights[0], d)[0]);
+    return std::pair(n % width, n / width);
+  };
+  EXPECT_EQ(pixel_at(5, 5, {0, 0, 1}), std::pair(2, 2));
+  EXPECT_EQ(pixel_at(5, 5, {1, 0, 0}), std::pair(4, 2));
+  EXPECT_EQ(pixel_at(5, 5, {0, 1, 0}), std::pair(2, 4));
+  EXPECT_EQ(pixel_at(5, 5, {0, -1, 0}), std::pair(2, 0));
+  EXPECT_EQ(pixel_at(5, 5, normalize(kernel::vec3(0.5f, 0.5f, -0.9f))), std::pair(4, 4));
+  EXPECT_EQ(pixel_at(16, 8, normalize(kernel::vec3(1, 0.1f, 5))), std::pair(0, 0));
+  EXPECT_EQ(pixel_at(16, 8, normalize(kernel::vec3(1, 0.1f, 0.1f))), std::pair(0, 3));
+  EXPECT_EQ(pixel_at(16, 8, normalize(kernel::vec3(-0.1f, 1, -0.1f))), std::pair(4, 4));
+  EXPECT_EQ(pixel_at(16, 8, normalize(kernel::vec3(-0.1f, -0.1f, -1))).second, 7);
+}
+
+// Pearson's test of 10^6 directions against the light's own density; the twin's image differs in one bright pixel.
+TEST_F(Images, AreSampledByTheirDensity) {
+  for (const int width : {16, 32}) {
+    const CompiledScene c = compiled(scene("reference", write(width, 16, 3)));
+    CompiledScene other = c;
+    const std::size_t bins = static_cast<std::size_t>(width) * 16;
+    // Pixel numbers for radiance, with the table that was made for the image.
+    for (std::size_t i = 0; i < bins; ++i)
+      for (std::size_t k = 0; k < 3; ++k) other.environments[0].pixels[3 * i + k] = static_cast<float>(i + 1);
+    std::vector<double> counts(bins), chances(bins);
+    const CompiledEnvironment& e = c.environments[0];
+    double total = 0;
+    for (std::size_t i = 0; i < bins; ++i) {
+      chances[i] = static_cast<double>(e.pixels[3 * i] + e.pixels[3 * i + 1] + e.pixels[3 * i + 2]) *
+                   static_cast<double>(e.pixel_solid_angle[i / static_cast<std::size_t>(width)]);
+      total += chances[i];
+    }
+    for (double& p : chances) p /= total;
+    constexpr int n = 1000000;
+    for (int i = 0; i < n; ++i) {
+      RandomStream random(other, 0, 0, i);
+      const LightSample s = sample_light(other, other.lights[0], {0, 0, 0}, nullptr, random);
+      const double number = std::round(static_cast<double>(s.value[0] * s.pdf));
+      counts[static_cast<std::size_t>(number) - 1] += 1;
+      if (i % 1000 == 0) {
+        ASSERT_NEAR(light_pdf(other, other.lights[0], s.ray, nullptr, {}), s.pdf, 1e-4f * s.pdf);
+      }
+    }
+    const double freedom = static_cast<double>(bins) - 1;
+    EXPECT_GT(chi_squared_p_value(chi_squared(counts, chances, n), freedom), sidak(0.01, 3));
+    std::vector<double> fault = chances;
+    const auto bright = std::max_element(fault.begin(), fault.end());
+    const double moved = 0.2 * *bright;
+    *bright -= moved;
+    *std::min_element(fault.begin(), fault.end()) += moved;
+    EXPECT_GT(noncentrality(chances, fault, n), 100);
+    EXPECT_LT(chi_squared_p_value(chi_squared(counts, fault, n), freedom), 1e-6);
+  }
+}
+
+// Lights are drawn as often as they say, and nine tenths of it in proportion to power.
+TEST(LightChoices, FollowPower) {
+  SceneDescription s = needle_scene();
+  for (int i = 1; i <= 150; ++i) s.lights.push_back(point_light({0, 0, 0}, static_cast<float>(i)));
+  const CompiledScene c = compiled(s);
+  constexpr int n = 1000000;
+  std::vector<double> counts(150), chances, even(150, 1.0 / 150);
+  for (const CompiledLight& light : c.lights) chances.push_back(static_cast<double>(light.chance));
+  EXPECT_NEAR(chances[149], 0.1 / 150 + 0.9 * 150 / (75 * 151), 1e-6);
+  for (int i = 0; i < n; ++i) {
+    RandomStream random(c, 0, 0, i);
+    const LightChoice choice = choose_light(c, random.next());
+    ++counts[static_cast<std::size_t>(choice.index)];
+  }
+  EXPECT_GT(chi_squared_p_value(chi_squared(counts, chances, n), 149), sidak(0.01, 3));
+  EXPECT_LT(chi_squared_p_value(chi_squared(counts, even, n), 149), 1e-6);
+}
+
+}  // namespace
+}  // namespace brume

@@ -1,0 +1,112 @@
+// What the reader makes of materials, shapes and lights beyond the plainest.
+#include <cmath>
+
+#include "image/temporary_folder.h"
+#include "scene_test.h"
+
+namespace brume {
+namespace {
+
+MaterialDescription material_of(const std::string& text) {
+  const SceneDescription s = world_of("Material " + text + "\nShape \"sphere\"");
+  return s.shapes.empty() ? MaterialDescription{} : s.shapes[0].material;
+}
+
+TEST(ReadMaterials, ConductorsByNameByNumbersAndByReflectance) {
+  const auto gold = std::get<ConductorMaterial>(
+      material_of("\"conductor\" \"spectrum eta\" \"metal-Au-eta\" \"spectrum k\" \"metal-Au-k\""));
+  // Yellow: red is reflected as well as by silver, blue badly.
+  const auto reflectance = [&](int c) {
+    const double n = static_cast<double>(gold.eta[c]), k = static_cast<double>(gold.k[c]);
+    return ((n - 1) * (n - 1) + k * k) / ((n + 1) * (n + 1) + k * k);
+  };
+  EXPECT_GT(reflectance(0), 0.9);
+  EXPECT_LT(reflectance(2), 0.5);
+  const auto copper = std::get<ConductorMaterial>(material_of("\"conductor\""));
+  const auto named = std::get<ConductorMaterial>(material_of("\"conductor\" \"spectrum eta\" \"metal-Cu-eta\""));
+  EXPECT_EQ(copper.eta, named.eta);
+  EXPECT_EQ(copper.k, named.k);
+  const auto mirror = std::get<ConductorMaterial>(material_of("\"conductor\" \"rgb reflectance\" [0.5 0.9 1]"));
+  EXPECT_EQ(mirror.eta, constant_spectrum(1));
+  EXPECT_NEAR(mirror.k[0] * mirror.k[0] / (4 + mirror.k[0] * mirror.k[0]), 0.5, 1e-6);
+  EXPECT_NEAR(mirror.k[1] * mirror.k[1] / (4 + mirror.k[1] * mirror.k[1]), 0.9, 1e-6);
+  EXPECT_EQ(std::get<ConductorMaterial>(material_of("\"conductor\" \"rgb eta\" [1 2 3] \"rgb k\" [4 5 6]")).k[2], 6);
+}
+
+TEST(ReadMaterials, DielectricsByNumberAndByName) {
+  EXPECT_EQ(std::get<DielectricMaterial>(material_of("\"dielectric\"")).eta, 1.5f);
+  EXPECT_EQ(std::get<DielectricMaterial>(material_of("\"dielectric\" \"float eta\" 1.33")).eta, 1.33f);
+  EXPECT_EQ(std::get<DielectricMaterial>(material_of("\"dielectric\" \"spectrum eta\" [200 1.4 900 1.4]")).eta, 1.4f);
+  EXPECT_EQ(std::get<DielectricMaterial>(material_of("\"dielectric\" \"spectrum eta\" \"glass-BK7\"")).eta, 1.5168f);
+}
+
+TEST(ReadShapes, DisksAndCylinders) {
+  const SceneDescription s = world_of(
+      "Shape \"disk\"\nShape \"disk\" \"float radius\" 2 \"float height\" 3 \"float innerradius\" 1 \"float phimax\" "
+      "90\n"
+      "Shape \"cylinder\" \"float zmin\" 2 \"float zmax\" -3 \"float radius\" 0.5");
+  ASSERT_EQ(s.shapes.size(), 3u);
+  EXPECT_EQ(std::get<DiskShape>(s.shapes[0].kind).radius, 1);
+  const auto disk = std::get<DiskShape>(s.shapes[1].kind);
+  EXPECT_EQ(disk.height, 3);
+  EXPECT_EQ(disk.inner_radius, 1);
+  EXPECT_EQ(disk.phi_max, 90);
+  const auto cylinder = std::get<CylinderShape>(s.shapes[2].kind);
+  EXPECT_EQ(cylinder.z_min, -3);  // as pbrt swaps them
+  EXPECT_EQ(cylinder.z_max, 2);
+  EXPECT_EQ(cylinder.phi_max, 360);
+}
+
+TEST(ReadShapes, ABilinearPatchThatIsFlatIsTwoTriangles) {
+  const SceneDescription s =
+      world_of("Shape \"bilinearmesh\" \"point3 P\" [0 0 0  2 0 0  0 1 0  2 1 0] \"point2 uv\" [0 0 1 0 0 1 1 1]");
+  ASSERT_EQ(s.shapes.size(), 1u);
+  const auto& mesh = std::get<TriangleMeshShape>(s.shapes[0].kind);
+  const std::vector<std::array<std::uint32_t, 3>> triangles = {{0, 1, 3}, {0, 3, 2}};
+  EXPECT_EQ(mesh.triangles, triangles);
+  EXPECT_EQ(errors_of("WorldBegin\nShape \"bilinearmesh\" \"point3 P\" [0 0 0  2 0 0  0 1 0  2 1 1]"),
+            std::vector<std::string>{"patch 0 of Shape \"bilinearmesh\" is not flat; only flat ones are read"});
+}
+
+TEST(ReadShapes, MeshesOfPlyFiles) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.file("mesh.ply"))
+      << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+         "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+         "end_header\n0 0 0 1 0 0 0 1 0 3 0 1 2\n";
+  std::vector<Diagnostic> warnings;
+  const std::string text = "WorldBegin\nShape \"plymesh\" \"string filename\" \"mesh.ply\"";
+  const SceneDescription s = read_scene_text(text, "test.pbrt", folder.path(), warnings);
+  ASSERT_EQ(s.shapes.size(), 1u);
+  EXPECT_EQ(std::get<TriangleMeshShape>(s.shapes[0].kind).positions[1], (Vector3{1, 0, 0}));
+  EXPECT_TRUE(warnings.empty());
+}
+
+// Catches a light that outlasts its block, or is not there for later shapes, or for shapes without a surface.
+TEST(ReadLights, AreaLightsHoldForTheShapesOfTheirBlock) {
+  const SceneDescription s = world_of(
+      "AttributeBegin\nAreaLightSource \"diffuse\" \"rgb L\" [1 2 3] \"float scale\" 2 \"bool twosided\" true\n"
+      "Shape \"sphere\"\nShape \"disk\"\nMaterial \"interface\"\nShape \"sphere\"\nAttributeEnd\nShape \"sphere\"");
+  ASSERT_EQ(s.shapes.size(), 4u);
+  ASSERT_TRUE(s.shapes[0].light && s.shapes[1].light);
+  EXPECT_EQ(s.shapes[1].light->radiance, (Spectrum{{2, 4, 6}}));
+  EXPECT_TRUE(s.shapes[1].light->two_sided);
+  EXPECT_EQ(s.shapes[1].light->power, 0);
+  EXPECT_FALSE(s.shapes[2].light);
+  EXPECT_FALSE(s.shapes[3].light);
+}
+
+TEST(ReadLights, ImagesAreTurnedAndScaled) {
+  const SceneDescription s = world_of(
+      "Rotate 90 1 0 0\nScale 2 2 -2\nLightSource \"infinite\" \"string filename\" \"sky.exr\" \"float scale\" 3 "
+      "\"float illuminance\" 5");
+  ASSERT_EQ(s.lights.size(), 1u);
+  const auto& light = std::get<InfiniteLight>(s.lights[0].kind);
+  EXPECT_EQ(light.filename, "sky.exr");
+  EXPECT_EQ(light.radiance, constant_spectrum(3));
+  EXPECT_EQ(light.illuminance, 5);
+  EXPECT_NEAR(light.world_from_light.vector({0, 0, 1}).y, 2, 1e-12);
+}
+
+}  // namespace
+}  // namespace brume
