@@ -74,7 +74,11 @@ measure() {
       >> "$work/$1"
 }
 
-median() { cut -d ' ' -f "$1" "$2" | sort -g | awk '{ v[NR] = $1 } END { print (v[int((NR + 1) / 2)] + v[int(NR / 2) + 1]) / 2 }'; }
+# median COLUMN FILE
+median() {
+  cut -d ' ' -f "$1" "$2" | sort -g |
+    awk '{ v[NR] = $1 } END { print (v[int((NR + 1) / 2)] + v[int(NR / 2) + 1]) / 2 }'
+}
 
 run blender -b --factory-startup --python-expr 'pass'  # fills the file cache
 seconds=0
@@ -82,7 +86,8 @@ run blender -b --factory-startup --python-expr 'pass'
 start=$seconds
 
 echo "$(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -n 1), $(blender --version | head -n 1), $spp samples a pixel, median of $repetitions"
-echo "Blender's start, $start CPU s, is taken off. Equal error: Brume's CPU s for as many samples as have Cycles' error."
+echo "Blender's start, $start CPU s, is taken off. Equal error: the CPU s that Brume takes to Cycles' error, if error x time"
+echo "stays the same."
 printf '%-11s %-7s %10s %8s %11s %14s %12s\n' scene '' error 'CPU s' 'error x s' 'Brume/Cycles' 'equal error'
 for scene in "${scenes[@]}"; do
   rm -f "$work/cycles" "$work/brume"

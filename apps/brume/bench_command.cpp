@@ -12,8 +12,9 @@ const char* const help_text =
 
   --json          one JSON object instead of a table
   --size N        voxels along the cloud's longest side, 8 to 2048; may be repeated.
-                  Default: 256, 512 and 1024. The first is measured with every instruction
-                  set and storage, the others with the best set and 16 bits a voxel
+                  Default: 256 and 512. The first is measured with every instruction set
+                  and storage, the others with the best set and 16 bits a voxel. Making
+                  a cloud of 1024 takes minutes
   --time SECONDS  for each line, default 0.5; the best of five rounds is shown
   --nthreads N    to make the clouds with, default 0: one per core. One thread is measured.
 

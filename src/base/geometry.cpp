@@ -22,9 +22,7 @@ Vector3 Transform::vector(Vector3 v) const {
           m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z};
 }
 
-Vector3 Transform::normal(Vector3 n) const {
-  return transposed(inverse(*this), n);
-}
+Vector3 Transform::normal(Vector3 n) const { return transposed(inverse(*this), n); }
 
 Vector3 transposed(const Transform& t, Vector3 v) {
   return {t.m[0][0] * v.x + t.m[1][0] * v.y + t.m[2][0] * v.z, t.m[0][1] * v.x + t.m[1][1] * v.y + t.m[2][1] * v.z,

@@ -23,7 +23,7 @@ constexpr int max_active_media = 16;
 struct CompiledGrid {
   std::vector<std::uint32_t> table, words;
   std::uint32_t table_x = 0, table_xy = 0, bits = 16;
-  float max_density = 0;                          // bounds every value, rounding included
+  float max_density = 0;  // bounds every value, rounding included
   // Local bounds (see kernel/majorant.inl).
   std::vector<std::uint32_t> majorants;
   std::uint32_t majorant_row = 0, majorant_layer = 0;
@@ -62,7 +62,7 @@ struct CompiledMaterial {
   enum class Kind { blinn_phong, conductor, dielectric } kind = Kind::blinn_phong;
   Spectrum diffuse, specular, mirror;
   float shininess = 1;
-  Spectrum eta, k;              // conductor: complex index of refraction
+  Spectrum eta, k;             // conductor: complex index of refraction
   float refractive_index = 1;  // dielectric: inside over outside
   bool operator==(const CompiledMaterial&) const = default;
 };
@@ -80,8 +80,8 @@ struct CompiledMesh {
   bool flip_normal = false;  // the geometric normal is the negative of (p1 - p0) x (p2 - p0)
 };
 
-// A part of a unit sphere, disk or cylinder under an affine map. The disk lies at z = 0 and faces +z, the cylinder stands
-// on it and reaches to z = 1.
+// A part of a unit sphere, disk or cylinder under an affine map. The disk lies at z = 0 and faces +z, the cylinder
+// stands on it and reaches to z = 1.
 struct CompiledQuadric {
   enum class Kind { sphere, disk, cylinder } kind = Kind::sphere;
   Transform object_from_world;
@@ -117,8 +117,9 @@ struct CompiledLight {
   std::uint32_t first_triangle_cdf = 0;  // mesh: in triangle_cdfs
 };
 
-// An image around the scene, constant in each of its pixels, and a table to draw pixels in proportion to luminance times
-// solid angle. Row i holds the pixels [i width, (i + 1) width); cumulative chances begin with 0 and end with 1.
+// An image around the scene, constant in each of its pixels, and a table to draw pixels in proportion to the mean of
+// their channels times solid angle. Row i holds the pixels [i width, (i + 1) width); cumulative chances begin with 0
+// and end with 1.
 struct CompiledEnvironment {
   enum class Projection { equal_area, equirectangular } projection = Projection::equal_area;
   std::uint32_t width = 0, height = 0;

@@ -243,11 +243,11 @@ Spectrum ClassicIntegrator::direct_light(const Ray& ray, const SurfaceHit& hit, 
     const LightSample s = sample_light(scene_, light, p, &hit.shading_normal, random);
     if (dot(s.ray.direction, hit.normal) <= 0 || dot(s.ray.direction, hit.shading_normal) <= 0) continue;
     light_samples_.push_back(s);
-    shadow_rays_.push_back({start, s.ray.direction, s.ray.t_max});
+    shadow_rays_.push_back(started_at(start, s.ray));
   }
   visibility_.find(shadow_rays_, random, arriving_);
   for (std::size_t i = 0; i < shadow_rays_.size(); ++i) {
-    const vec3 to_light = shadow_rays_[i].direction;
+    const vec3 to_light = light_samples_[i].ray.direction;
     const Spectrum f = blinn_phong(material, hit.shading_normal, to_light, -ray.direction);
     result = result + dot(to_light, hit.shading_normal) * f * light_samples_[i].value * arriving_[i];
   }

@@ -95,7 +95,9 @@ LightSample sample_area(const CompiledScene& scene, const CompiledLight& light, 
   const float reach = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), length(towards)});
   const vec3 to_light = leave_surface(leave_surface(q.position, n, reach), n, reach) - p;
   const float distance = length(to_light);
-  const bool lit = (light.two_sided || dot(q.normal, towards) < 0) && q.pdf > 0 && distance > 0;
+  // What is as near as that is the light itself, of which p is a point: it does not shine on itself.
+  const bool is_apart = dot(n, to_light) < 0;
+  const bool lit = (light.two_sided || dot(q.normal, towards) < 0) && q.pdf > 0 && is_apart;
   if (!lit) return {{p, {0, 0, 1}, far_away}, {}, 0};
   return {{p, (1 / distance) * to_light, distance}, (1 / q.pdf) * light.value, q.pdf};
 }
@@ -124,6 +126,13 @@ LightSample sample_light(const CompiledScene& scene, const CompiledLight& light,
       return sample_area(scene, light, p, random);
   }
   return sample_constant(light, p, normal, random);
+}
+
+Ray started_at(vec3 start, const Ray& ray) {
+  if (ray.t_max >= far_away) return {start, ray.direction, ray.t_max};
+  const vec3 to_end = ray.at(ray.t_max) - start;
+  const float distance = length(to_end);
+  return {start, distance > 0 ? (1 / distance) * to_end : ray.direction, distance};
 }
 
 float light_pdf(const CompiledScene& scene, const CompiledLight& light, const Ray& ray, const vec3* normal,

@@ -25,9 +25,12 @@ struct LightSample {
 
 // From a point p: in a medium, where `normal` is null, else on a surface whose unit normal on the lit side it is.
 // Directions of a constant infinite light are uniform in a medium and in proportion to their cosine on a surface.
-// The ray starts at p; from a surface, whoever follows it starts a little off (leave_surface).
+// The ray starts at p; from a surface, whoever follows it starts a little off (leave_surface, started_at).
 LightSample sample_light(const CompiledScene& scene, const CompiledLight& light, kernel::vec3 p,
                          const kernel::vec3* normal, RandomStream& random);
+
+// The ray of a light sample on a surface, from `start` a little off the surface to the same end.
+Ray started_at(kernel::vec3 start, const Ray& ray);
 
 // The density with which sample_light, from the ray's origin, takes its direction. `hit` is where the ray meets the
 // light's surface, as the intersector gives it, and unused for lights without one. 0 for point and distant lights.

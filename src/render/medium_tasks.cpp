@@ -60,6 +60,28 @@ namespace brume {
 
 HWY_EXPORT(clip_lanes);
 
+namespace {
+
+void copy_task(const TrackTasks& from, std::uint32_t i, TrackTasks& to) {
+  to.make_room(1);
+  const TrackColumns &f = from.columns, &t = to.columns;
+  const std::uint32_t at = to.count++;
+  for (int axis = 0; axis < 3; ++axis) {
+    t.entry[axis][at] = f.entry[axis][i];
+    t.direction[axis][at] = f.direction[axis][i];
+  }
+  t.length[at] = f.length[i];
+  t.t_begin[at] = f.t_begin[i];
+  t.optical_depth[at] = f.optical_depth[i];
+  t.key[at] = f.key[i];
+  t.pixel[at] = f.pixel[i];
+  t.sample[at] = f.sample[i];
+  t.hero[at] = f.hero[i];
+  t.ray[at] = f.ray[i];
+}
+
+}  // namespace
+
 MediumTasks::MediumTasks(const CompiledScene& scene, const Intersector& intersector, const MediaAlongRay& media)
     : scene_(scene), intersector_(intersector), media_(media), tasks_(scene.media.size()) {
   for (const CompiledMedium& medium : scene.media) {
@@ -136,7 +158,28 @@ void MediumTasks::add_bounded_media(const RayColumns& rays, std::uint32_t count)
 void MediumTasks::cut_to_nearest(TrackTasks& tasks, const FlightColumns& flights) const {
   const TrackColumns& c = tasks.columns;
   for (std::uint32_t i = 0; i < tasks.count; ++i)
-    c.length[i] = std::min(c.length[i], flights.t[c.ray[i]] - c.t_begin[i]);
+    c.length[i] = std::clamp(flights.t[c.ray[i]] - c.t_begin[i], 0.0f, c.length[i]);
+}
+
+// Splits the flights of paths that have not been scattered yet and cross nothing but this medium; their stretches are
+// left with no length.
+void MediumTasks::split_first_flights(std::size_t medium, const FlightColumns& flights) {
+  TrackTasks& tasks = tasks_[medium];
+  again_.count = 0;
+  for (std::uint32_t i = 0; i < tasks.count; ++i) {
+    const std::uint32_t ray = tasks.columns.ray[i];
+    if (flights.depth[ray] != 0 || stretch_counts_[ray] != 1) continue;
+    copy_task(tasks, i, again_);
+    tasks.columns.length[i] = 0;
+  }
+  track_split(*grids_[medium], again_, counts_);
+  const TrackColumns& c = again_.columns;
+  for (std::uint32_t i = 0; i < again_.count; ++i) {
+    if (c.result[i] < 0) continue;
+    flights.t[c.ray[i]] = c.t_begin[i] + c.result[i];
+    flights.medium[c.ray[i]] = static_cast<std::int32_t>(medium);
+    flights.passed[c.ray[i]] = c.weight[0][i];
+  }
 }
 
 // The first collision of each stretch with its medium.
@@ -158,12 +201,18 @@ void MediumTasks::collide(std::size_t medium, TrackTasks& tasks) {
 void MediumTasks::find_collisions(const RayColumns& rays, std::uint32_t count, const FlightColumns& flights) {
   std::copy_n(rays.t_max, count, flights.t);
   std::fill_n(flights.medium, count, no_medium);
+  std::fill_n(flights.passed, count, 0.0f);
+  stretch_counts_.assign(count, 0);
+  for (const TrackTasks& tasks : tasks_)
+    for (std::uint32_t i = 0; i < tasks.count; ++i)
+      if (std::uint8_t& n = stretch_counts_[tasks.columns.ray[i]]; n < 2) ++n;
   bool is_first = true;
   for (std::size_t medium = 0; medium < tasks_.size(); ++medium) {
     TrackTasks& tasks = tasks_[medium];
     if (tasks.count == 0) continue;
     if (!is_first) cut_to_nearest(tasks, flights);
     is_first = false;
+    if (grids_[medium] && !is_chromatic_) split_first_flights(medium, flights);
     collide(medium, tasks);
     const TrackColumns& c = tasks.columns;
     for (std::uint32_t i = 0; i < tasks.count; ++i) {
@@ -193,21 +242,8 @@ void MediumTasks::weigh_flights(std::size_t medium, const FlightColumns& flights
       for (int k = 0; weighed && k < 3; ++k) flights.weight[k][c.ray[i]] *= c.weight[k][i];
       continue;
     }
-    again_.make_room(1);
-    const TrackColumns& a = again_.columns;
-    const std::uint32_t at = again_.count++;
-    for (int axis = 0; axis < 3; ++axis) {
-      a.entry[axis][at] = c.entry[axis][i];
-      a.direction[axis][at] = c.direction[axis][i];
-    }
-    a.length[at] = end;
-    a.t_begin[at] = c.t_begin[i];
-    a.optical_depth[at] = c.optical_depth[i];
-    a.key[at] = c.key[i];
-    a.pixel[at] = c.pixel[i];
-    a.sample[at] = c.sample[i];
-    a.hero[at] = c.hero[i];
-    a.ray[at] = c.ray[i];
+    copy_task(tasks_[medium], i, again_);
+    again_.columns.length[again_.count - 1] = end;
   }
   if (again_.count == 0 || (grids_[medium] && !grids_[medium]->chromatic)) return;
   collide(medium, again_);

@@ -16,6 +16,10 @@ struct FlightColumns {
   float* t = nullptr;              // of the first collision; the ray's t_max where there is none
   std::int32_t* medium = nullptr;  // which it is with; no_medium where there is none
   float* weight[3] = {};           // how the flight changed the path's weight, per channel; only if is_chromatic()
+  // Paths that have not been scattered yet may be split by a grid: `passed` is the share that met no medium, where the
+  // flight has a collision with one; it is 0 for flights that were not split.
+  const std::uint32_t* depth = nullptr;
+  float* passed = nullptr;
 };
 
 // A CompiledVolume in floats.
@@ -54,6 +58,7 @@ class MediumTasks {
   void add_bounded_media(const RayColumns& rays, std::uint32_t count);
   void cut_to_nearest(TrackTasks& tasks, const FlightColumns& flights) const;
   void collide(std::size_t medium, TrackTasks& tasks);
+  void split_first_flights(std::size_t medium, const FlightColumns& flights);
   void weigh_flights(std::size_t medium, const FlightColumns& flights);
 
   const CompiledScene& scene_;
@@ -64,6 +69,7 @@ class MediumTasks {
   std::vector<std::optional<TrackedGrid>> grids_;  // by medium; none for homogeneous ones
   std::vector<TrackTasks> tasks_;                  // by medium
   TrackTasks again_;
+  std::vector<std::uint8_t> stretch_counts_;  // by ray
   std::optional<kernel::vec3> too_many_media_;
   TrackCounts counts_;
   std::vector<Ray> rays_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "render/directions.h"
 #include "render/phase.h"
@@ -55,9 +54,8 @@ Spectrum ReferenceIntegrator::radiance(Ray ray, RandomStream& random) {
       const auto scatter = [&](vec3 to_light, float& pdf) {
         return eval_surface(scene_, hit, ray.direction, to_light, pdf);
       };
-      if (scatters_widely(material_at(scene_, hit))) {
+      if (scatters_widely(material_at(scene_, hit)))
         result = result + throughput * direct_light(ray.at(hit.t), &hit, random, scatter);
-      }
       const SurfaceSample sample = sample_surface(scene_, hit, ray.direction, random);
       throughput = throughput * sample.weight;
       departure = {sample.pdf, true, hit.shading_normal};
@@ -105,8 +103,8 @@ Spectrum ReferenceIntegrator::direct_light(vec3 p, const SurfaceHit* hit, Random
   const Spectrum scattered = s.value * scatter(s.ray.direction, pdf);
   if (is_zero(scattered)) return {};
   const float light_pdf = choice.chance * s.pdf, share = s.pdf > 0 ? light_pdf / (light_pdf + pdf) : 1;
-  const vec3 start = hit ? leave_surface(p, hit->normal, hit->t) : p;
-  return (share / choice.chance) * scattered * transmittance({start, s.ray.direction, s.ray.t_max}, random);
+  const Ray shadow_ray = hit ? started_at(leave_surface(p, hit->normal, hit->t), s.ray) : s.ray;
+  return (share / choice.chance) * scattered * transmittance(shadow_ray, random);
 }
 
 // Visits tentative collisions along the ray, nearest first, at the rate of a majorant of all media together (or of

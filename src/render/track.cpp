@@ -19,6 +19,8 @@ constexpr int vector_count = 8;
 constexpr int steps_a_round = 2;
 // The least survival before roulette ends tracks that carry little transmittance.
 constexpr float roulette_below = 0.1f;
+// The least weight that a track is split at.
+constexpr float split_above = 0.05f;
 
 // One vector of tracks.
 struct Tracks {
@@ -30,14 +32,18 @@ struct Tracks {
   U key, pixel, sample, counter;
   F weight[3];  // transmittance; or the null collisions' weights
   F hero_sigma;
+  F chosen;  // the t of a split track's collision; negative where there is none
   B stepping, waiting, done;
   HWY_ALIGN std::uint32_t task[HWY_MAX_BYTES / sizeof(std::uint32_t)];
 };
 
-// is_ratio: estimate transmittance; else find the first collision.
-template <bool is_ratio, bool is_chromatic>
+enum class Tracking { collision, split, transmittance };
+
+// What a track is followed for, and whether extinction differs between channels (never so for split ones).
+template <Tracking tracking, bool is_chromatic>
 struct Stream {
-  static constexpr int weight_count = is_chromatic ? 3 : is_ratio ? 1 : 0;
+  static constexpr bool is_ratio = tracking == Tracking::transmittance, is_split = tracking == Tracking::split;
+  static constexpr int weight_count = is_chromatic ? 3 : is_ratio || is_split ? 1 : 0;
 
   const BrickGrid density;
   const MajorantGrid majorants;
@@ -75,7 +81,7 @@ struct Stream {
     v.t = select(here, min(v.t + v.optical_depth / v.majorant, v.t_end), v.t);
     const vec3 p = v.origin + v.t * v.direction;
     const RandomWords r = random_words(v.key, v.pixel, v.sample, v.counter);
-    v.counter = v.counter + U(1u);
+    v.counter = select(here, v.counter + U(1u), v.counter);
     const F d = grid.linear ? grid_stochastic(density, p, r.x, r.y) : grid_nearest(density, p);
     const B violates = both(here, d * grid.sigma_majorant > v.majorant * 1.00001f);
     if (any(violates)) counts.majorant_violations += static_cast<std::int64_t>(count_lanes(violates));
@@ -93,6 +99,8 @@ struct Stream {
       ends = both(here, u >= survival);
       for (int c = 0; c < weight_count; ++c)
         v.weight[c] = select(ends, F(0.0f), select(here, v.weight[c] / max(survival, F(1e-30f)), v.weight[c]));
+    } else if (is_split) {
+      ends = split(v, here, d * F(grid.sigma_majorant) / v.majorant, u);
     } else {
       const F real = d * (is_chromatic ? v.hero_sigma : F(grid.sigma_majorant));
       ends = both(here, u * v.majorant < real);
@@ -109,11 +117,26 @@ struct Stream {
     v.waiting = no_lanes();
   }
 
+  // A tentative collision of which the share `real` is one: splits what is left of the path's weight. Of the parts that
+  // collided one is kept, by a reservoir: in proportion to their weights. Where little is left, it is not split any
+  // more: all of it collides or none. Returns the lanes that have nothing left.
+  HWY_INLINE B split(Tracks& v, B here, F real, F u) {
+    const F left = v.weight[0];
+    const B is_whole = left < split_above;
+    const F collided = select(is_whole, select(u < real, left, F(0.0f)), left * real);
+    const F rest = left - collided;
+    const F chance = select(is_whole, real * left, collided / max(1.0f - rest, F(1e-30f)));
+    v.chosen = select(both(here, u < chance), v.t, v.chosen);
+    v.weight[0] = select(here, rest, v.weight[0]);
+    return both(here, rest <= 0.0f);
+  }
+
   // Writes the results of the lanes that are done and starts new tasks in them, while there are any.
   HWY_INLINE void finish(Tracks& v) {
     HWY_ALIGN float result[HWY_MAX_BYTES / sizeof(float)];
     HWY_ALIGN float weight[3][HWY_MAX_BYTES / sizeof(float)];
-    store_lanes(is_ratio ? v.weight[0] : select(v.t_end < 0.0f, v.t, F(-1.0f)), result);
+    store_lanes(is_ratio ? v.weight[0] : is_split ? v.chosen : select(v.t_end < 0.0f, v.t, F(-1.0f)), result);
+    if (is_split) store_lanes(v.weight[0], weight[0]);
     if (is_chromatic)
       for (int c = 0; c < 3; ++c) store_lanes(v.weight[c], weight[c]);
     std::uint32_t started = 0;
@@ -121,8 +144,7 @@ struct Stream {
       const int lane = __builtin_ctz(left);
       const std::uint32_t task = v.task[lane];
       tasks.result[task] = result[lane];
-      if (is_chromatic)
-        for (int c = 0; c < 3; ++c) tasks.weight[c][task] = weight[c][lane];
+      for (int c = 0; c < weight_count && !(is_ratio && !is_chromatic); ++c) tasks.weight[c][task] = weight[c][lane];
       if (next_task == task_count) continue;
       v.task[lane] = next_task++;
       started |= 1u << lane;
@@ -143,8 +165,9 @@ struct Stream {
     v.pixel = select(m, load_u32(tasks.pixel, task), v.pixel);
     v.sample = select(m, load_u32(tasks.sample, task), v.sample);
     v.counter = select(m, U(0u), v.counter);
+    v.chosen = select(m, F(-1.0f), v.chosen);
     for (int c = 0; c < weight_count; ++c) v.weight[c] = select(m, F(1.0f), v.weight[c]);
-    if (is_chromatic && !is_ratio) {
+    if (is_chromatic && tracking == Tracking::collision) {
       const I hero = as_int(load_u32(tasks.hero, task));
       const F sigma =
           select(hero == I(0), F(grid.sigma_t[0]), select(hero == I(1), F(grid.sigma_t[1]), F(grid.sigma_t[2])));
@@ -196,7 +219,7 @@ struct Stream {
   // Gives every lane numbers to compute with.
   HWY_INLINE void start_all(Tracks& v) {
     v.origin = v.direction = vec3(0.0f, 0.0f, 0.0f);
-    v.t = v.t_end = v.optical_depth = v.hero_sigma = 0.0f;
+    v.t = v.t_end = v.optical_depth = v.hero_sigma = v.chosen = 0.0f;
     v.majorant = 1.0f;
     v.key = v.pixel = v.sample = v.counter = U(0u);
     for (F& w : v.weight) w = 0.0f;
@@ -204,11 +227,11 @@ struct Stream {
   }
 };
 
-template <bool is_ratio, bool is_chromatic>
+template <Tracking tracking, bool is_chromatic>
 void run_stream(const TrackedGrid& g, const TrackColumns& tasks, std::uint32_t count, TrackCounts& counts) {
   const kernel::BrickGrid& d = g.density;
   const kernel::MajorantGrid& m = g.majorants;
-  Stream<is_ratio, is_chromatic> stream{{d.table, d.bricks, d.table_x, d.table_xy, d.bits},
+  Stream<tracking, is_chromatic> stream{{d.table, d.bricks, d.table_x, d.table_xy, d.bits},
                                         {m.cells, m.row, m.layer, m.cells_per_voxel},
                                         g,
                                         tasks,
@@ -219,14 +242,16 @@ void run_stream(const TrackedGrid& g, const TrackColumns& tasks, std::uint32_t c
   stream.run();
 }
 
-void track_lanes(const TrackedGrid& grid, bool is_ratio, const TrackColumns& tasks, std::uint32_t count,
-                 TrackCounts& counts) {
-  if (is_ratio)
-    grid.chromatic ? run_stream<true, true>(grid, tasks, count, counts)
-                   : run_stream<true, false>(grid, tasks, count, counts);
-  else
-    grid.chromatic ? run_stream<false, true>(grid, tasks, count, counts)
-                   : run_stream<false, false>(grid, tasks, count, counts);
+void collide_lanes(const TrackedGrid& grid, const TrackColumns& tasks, std::uint32_t count, TrackCounts& counts) {
+  grid.chromatic ? run_stream<Tracking::collision, true>(grid, tasks, count, counts)
+                 : run_stream<Tracking::collision, false>(grid, tasks, count, counts);
+}
+void split_lanes(const TrackedGrid& grid, const TrackColumns& tasks, std::uint32_t count, TrackCounts& counts) {
+  run_stream<Tracking::split, false>(grid, tasks, count, counts);
+}
+void transmit_lanes(const TrackedGrid& grid, const TrackColumns& tasks, std::uint32_t count, TrackCounts& counts) {
+  grid.chromatic ? run_stream<Tracking::transmittance, true>(grid, tasks, count, counts)
+                 : run_stream<Tracking::transmittance, false>(grid, tasks, count, counts);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -236,7 +261,9 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace brume {
 
-HWY_EXPORT(track_lanes);
+HWY_EXPORT(collide_lanes);
+HWY_EXPORT(split_lanes);
+HWY_EXPORT(transmit_lanes);
 
 TrackedGrid::TrackedGrid(const CompiledGrid& grid, const CompiledMedium& medium)
     : density(grid.view()),
@@ -263,10 +290,13 @@ void TrackTasks::make_room(std::uint32_t more) {
 }
 
 void track_collisions(const TrackedGrid& grid, TrackTasks& tasks, TrackCounts& counts) {
-  if (tasks.count > 0) HWY_DYNAMIC_DISPATCH(track_lanes)(grid, false, tasks.columns, tasks.count, counts);
+  if (tasks.count > 0) HWY_DYNAMIC_DISPATCH(collide_lanes)(grid, tasks.columns, tasks.count, counts);
+}
+void track_split(const TrackedGrid& grid, TrackTasks& tasks, TrackCounts& counts) {
+  if (tasks.count > 0) HWY_DYNAMIC_DISPATCH(split_lanes)(grid, tasks.columns, tasks.count, counts);
 }
 void track_transmittance(const TrackedGrid& grid, TrackTasks& tasks, TrackCounts& counts) {
-  if (tasks.count > 0) HWY_DYNAMIC_DISPATCH(track_lanes)(grid, true, tasks.columns, tasks.count, counts);
+  if (tasks.count > 0) HWY_DYNAMIC_DISPATCH(transmit_lanes)(grid, tasks.columns, tasks.count, counts);
 }
 
 }  // namespace brume

@@ -73,6 +73,10 @@ struct TrackCounts {
 
 // Results depend on their own stretch and the instruction set, not on the other stretches. No exceptions.
 void track_collisions(const TrackedGrid& grid, TrackTasks& tasks, TrackCounts& counts);
+// Grey grids. A track is not ended by its first collision with some chance, but split at every tentative collision in
+// that proportion: weight[0] = an unbiased estimate of the transmittance, and `result` is where the rest collides,
+// chosen among all collisions in proportion to their weights; negative where nothing collides.
+void track_split(const TrackedGrid& grid, TrackTasks& tasks, TrackCounts& counts);
 void track_transmittance(const TrackedGrid& grid, TrackTasks& tasks, TrackCounts& counts);
 
 }  // namespace brume

@@ -104,11 +104,13 @@ VolpathIntegrator::VolpathIntegrator(const CompiledScene& scene, const Intersect
   paths_.ray = memory_.rays();
   paths_.flight.t = memory_.floats();
   paths_.flight.medium = memory_.integers();
+  paths_.flight.passed = memory_.floats();
   for (auto* columns :
        {&paths_.flight.weight, &paths_.throughput, &paths_.rescale, &paths_.radiance, &shadows_.value, &transmittance_})
     memory_.make_floats(*columns);
   paths_.direction_density = memory_.floats();
   paths_.depth = memory_.words();
+  paths_.flight.depth = paths_.depth;
   paths_.target = memory_.words();
   for (float*& column : paths_.points) column = memory_.floats();
   shadows_.ray = memory_.rays();
@@ -266,11 +268,23 @@ void VolpathIntegrator::end_flights() {
         paths_.throughput[c][i] *= paths_.flight.weight[c][i];
         paths_.rescale[c][i] *= paths_.flight.weight[c][i];
       }
+    const bool has_surface = has_surfaces && hits_[i].shape >= 0;
+    const float passed = paths_.flight.passed[i];
+    if (passed > 0 && has_surface) {
+      // Two paths would have to go on; one of them does.
+      if (kernel::random_uniform(paths_.ray.key[i], paths_.ray.pixel[i], paths_.ray.sample[i], 0x80000001u) < passed)
+        paths_.flight.medium[i] = no_medium;
+    } else if (passed > 0) {
+      see_environment(i, passed);
+      for (float* throughput : paths_.throughput) throughput[i] *= 1 - passed;
+    }
     if (paths_.flight.medium[i] != no_medium) continue;
-    if (has_surfaces && hits_[i].shape >= 0)
+    if (has_surface) {
       meet_surface(i);
-    else
-      escape(i);
+    } else {
+      see_environment(i, 1);
+      paths_.ray.t_max[i] = 0;
+    }
   }
 }
 
@@ -287,7 +301,8 @@ void VolpathIntegrator::reach_light(std::uint32_t path, const Spectrum& radiance
   add(paths_.radiance, path, (share / rescale_mean(path)) * spectrum_at(paths_.throughput, path) * radiance);
 }
 
-void VolpathIntegrator::escape(std::uint32_t path) {
+// The share of the path that meets nothing any more sees the infinite lights.
+void VolpathIntegrator::see_environment(std::uint32_t path, float share) {
   const Ray ray = ray_of(path);
   for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
     const CompiledLight& light = scene_.lights[i];
@@ -295,9 +310,8 @@ void VolpathIntegrator::escape(std::uint32_t path) {
     if (is_zero(radiance)) continue;
     const float density =
         all_lights_.chance[i] > 0 ? all_lights_.chance[i] * light_pdf(scene_, light, ray, nullptr, {}) : 0;
-    reach_light(path, radiance, density);
+    reach_light(path, share * radiance, density);
   }
-  paths_.ray.t_max[path] = 0;
 }
 
 void VolpathIntegrator::meet_surface(std::uint32_t path) {
@@ -369,13 +383,14 @@ void VolpathIntegrator::gather_at_surface(std::uint32_t path, const SurfaceHit& 
   if (picked < 0) return;
   const auto i = static_cast<std::size_t>(picked);
   const Ray ray = ray_of(path);
-  const vec3 start = leave_surface(ray.at(hit.t), hit.normal, hit.t);
-  const LightSample s = sample_light(scene_, scene_.lights[i], start, &hit.shading_normal, random);
+  const vec3 p = ray.at(hit.t);
+  const LightSample s = sample_light(scene_, scene_.lights[i], p, &hit.shading_normal, random);
   float density = 0;
   const Spectrum f = eval_surface(scene_, hit, ray.direction, s.ray.direction, density);
   const float light_density = all_lights_.chance[i] * s.pdf;
   const float share = s.pdf > 0 ? light_density / (light_density + density) : 1;
-  send_shadow_ray(path, s.ray, (share / (all_lights_.chance[i] * rescale_mean(path))) * throughput * f * s.value);
+  send_shadow_ray(path, started_at(leave_surface(p, hit.normal, hit.t), s.ray),
+                  (share / (all_lights_.chance[i] * rescale_mean(path))) * throughput * f * s.value);
 }
 
 // Light at collisions from lights that are neither points nor directions.

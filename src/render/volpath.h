@@ -61,7 +61,7 @@ class VolpathIntegrator {
   void find_surfaces();
   void place_lights_along_flights();
   void end_flights();
-  void escape(std::uint32_t path);
+  void see_environment(std::uint32_t path, float share);
   void meet_surface(std::uint32_t path);
   void reach_light(std::uint32_t path, const Spectrum& radiance, float light_density);
   void gather_at_surface(std::uint32_t path, const SurfaceHit& hit, const Spectrum& throughput);

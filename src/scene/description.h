@@ -58,13 +58,13 @@ struct CameraDescription {
 enum class Traversal { march, dda };
 enum class Placement { start, random, middle, middle_random };
 
-// "classic" and "reference" are Brume's own; the others are pbrt-v4's, and "reference" renders what they would.
+// "classic" and "reference" are Brume's own; the others are pbrt-v4's, and "volpath" renders what they would.
 inline constexpr std::string_view integrator_names[] = {"classic", "reference",  "volpath",    "simplevolpath",
                                                         "path",    "simplepath", "randomwalk", "lightpath",
                                                         "bdpt",    "mlt",        "sppm",       "ambientocclusion"};
 
 struct IntegratorDescription {
-  std::string name = "classic";
+  std::string name = "volpath";
   int max_depth = 5;
   Traversal traversal = Traversal::march;
   Placement placement = Placement::middle;

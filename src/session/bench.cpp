@@ -81,7 +81,7 @@ double surface_ray_rate(double seconds) {
       mesh.triangles.push_back({b, d, c});
     }
   SceneDescription description;
-  description.shapes.push_back({{}, false, DiffuseMaterial{}, "", "", std::move(mesh), {}});
+  description.shapes.emplace_back().kind = std::move(mesh);
   std::vector<Diagnostic> warnings;
   const CompiledScene scene = compile(description, 1, warnings);
   const Intersector intersector(scene);

@@ -13,10 +13,10 @@ MediumDescription cloud() {
   MediumDescription medium;
   medium.name = "cloud";
   medium.world_from_medium = translate({0, cloud_height, 0}) * scale({cloud_scale, cloud_scale, cloud_scale});
-  medium.sigma_s = constant_spectrum(11.9f);
-  medium.sigma_a = constant_spectrum(0.1f);
+  medium.sigma_s = constant_spectrum(19.99f);
+  medium.sigma_a = constant_spectrum(0.01f);
   medium.phase = phase_kind("henyey_greenstein");
-  medium.phase_parameters = {0.2f};
+  medium.phase_parameters = {0.5f};
   medium.kind = CloudMedium{};
   return medium;
 }
@@ -32,7 +32,7 @@ ShapeDescription cloud_bounds() {
 // Reaches far enough that its edge reads as the horizon. Its normal, edge_u x edge_v, points up.
 ShapeDescription ground() {
   ShapeDescription shape;
-  shape.material = DiffuseMaterial{Spectrum{{0.085f, 0.105f, 0.06f}}};
+  shape.material = DiffuseMaterial{Spectrum{{0.2f, 0.24f, 0.13f}}};
   shape.kind = QuadShape{{-400, 0, 400}, {800, 0, 0}, {0, 0, -800}};
   return shape;
 }
@@ -47,14 +47,15 @@ SceneDescription example_scene() {
   // The leading mirror turns the camera's left-handed space to fit a right-handed world (+y up, +z towards the viewer).
   scene.camera.world_from_camera = inverse(scale({-1, 1, 1}) * look_at({1, 2, 10.5}, {0.7, 2.4, 0}, {0, 1, 0}));
   scene.camera.fov = 31;
-  scene.integrator.max_depth = 1;
+  scene.sampler.pixel_samples = 64;
+  scene.integrator.max_depth = 100;
   scene.integrator.placement = Placement::middle_random;
   scene.integrator.step = 0.06;
   scene.media.push_back(cloud());
   scene.shapes.push_back(cloud_bounds());
   scene.shapes.push_back(ground());
-  scene.lights.push_back({DistantLight{normalize({-0.8, 0.75, 0.45}), Spectrum{{22, 18.5f, 14}}}, {}});
-  scene.lights.push_back({InfiniteLight{Spectrum{{0.2f, 0.33f, 0.58f}}}, {}});
+  scene.lights.push_back({DistantLight{normalize({-0.8, 0.6, 0.3}), Spectrum{{3.4f, 2.9f, 2.2f}}}, {}});
+  scene.lights.push_back({InfiniteLight{Spectrum{{0.17f, 0.27f, 0.46f}}}, {}});
   return scene;
 }
 

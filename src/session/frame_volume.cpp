@@ -17,8 +17,8 @@ namespace brume {
 
 namespace {
 
-constexpr double optical_depth = 8;
-constexpr float albedo = 0.97f, mean_cosine = 0.35f;
+constexpr double optical_depth = 16;
+constexpr float albedo = 0.99f, mean_cosine = 0.35f;
 
 // An orthonormal frame of a right-handed world, seen by someone who looks along `forward`.
 struct View {
@@ -112,7 +112,7 @@ MediumDescription make_medium(const std::string& path, const VolumeGrid& grid, d
 // A warm sun from the upper left, on the viewer's side so far that the shape shows; a blue sky.
 std::vector<LightDescription> sun_and_sky(const View& view) {
   const Vector3 to_sun = normalize(-0.75 * view.right + 0.6 * Vector3{0, 1, 0} - 0.3 * view.forward);
-  return {{DistantLight{to_sun, Spectrum{{27, 22.5f, 17}}}, {}}, {InfiniteLight{Spectrum{{0.12f, 0.2f, 0.37f}}}, {}}};
+  return {{DistantLight{to_sun, Spectrum{{7, 5.8f, 4.3f}}}, {}}, {InfiniteLight{Spectrum{{0.05f, 0.085f, 0.16f}}}, {}}};
 }
 
 ShapeDescription whole_medium(const std::string& medium) {
@@ -158,10 +158,11 @@ FramedVolume frame_volume(const std::string& path, const std::string& grid_name)
   scene.shapes.push_back(whole_medium(scene.media.back().name));
   scene.lights = sun_and_sky(view);
 
-  // Half a voxel, as is usual, but at most 128 steps along the diagonal: shadow rays take steps of the same length, so
+  scene.sampler.pixel_samples = 64;
+  // For those who choose the classic integrator. Half a voxel, as is usual, but at most 128 steps along the diagonal: shadow rays take steps of the same length, so
   // the time grows with the square of their number.
   const double diagonal = length(whole.hi - whole.lo);
-  scene.integrator.max_depth = 1;
+  scene.integrator.max_depth = 100;
   scene.integrator.placement = Placement::middle_random;
   scene.integrator.step = std::max(0.5 * std::min({voxel.x, voxel.y, voxel.z}), diagonal / 128);
 

@@ -24,7 +24,10 @@ CompiledScene furnace_scene(int size, int bits, int threads) {
   cloud.sigma_a = constant_spectrum(0);
   cloud.phase_parameters = {0.85f};
   scene.media = {cloud};
-  scene.shapes.push_back({{}, false, InterfaceMaterial{}, "cloud", "", VolumeShape{}, {}});
+  ShapeDescription& shape = scene.shapes.emplace_back();
+  shape.kind = VolumeShape{};
+  shape.material = InterfaceMaterial{};
+  shape.inside = "cloud";
   std::vector<Diagnostic> warnings;
   CompiledScene compiled = compile(scene, thread_count(threads), warnings);
   CompiledMedium& medium = compiled.media.front();
@@ -42,10 +45,12 @@ FurnacePaths::FurnacePaths(const CompiledScene& scene)
   paths_.ray = memory_.rays();
   paths_.flight.t = memory_.floats();
   paths_.flight.medium = memory_.integers();
+  paths_.flight.passed = memory_.floats();
   for (auto* columns : {&paths_.flight.weight, &paths_.throughput, &paths_.rescale, &paths_.radiance, &shadows_.value})
     memory_.make_floats(*columns);
   paths_.direction_density = memory_.floats();
   paths_.depth = memory_.words();
+  paths_.flight.depth = paths_.depth;
   paths_.target = memory_.words();
   for (float*& column : paths_.points) column = memory_.floats();
   shadows_.ray = memory_.rays();
@@ -83,7 +88,7 @@ void FurnacePaths::start(std::uint32_t path) {
   for (std::uint32_t i = 0; i < point_dimensions; ++i) paths_.points[i][path] = random(4 + i);
   paths_.ray.distance_u[path] = paths_.points[0][path];
   paths_.direction_density[path] = -1;
-  paths_.depth[path] = 0;
+  paths_.depth[path] = 1;  // a first flight would be split
   paths_.target[path] = path;
 }
 

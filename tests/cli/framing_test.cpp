@@ -31,7 +31,7 @@ TEST(Framing, ShowsTheWholeVolumeInFrontOfTheSky) {
   const Outcome outcome = run(folder.path(), {volume, "--spp", "1", "-o", "a.pfm", "--resolution", "60x40"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
   EXPECT_THAT(outcome.error, HasSubstr("ellipsoid.vdb: grid density, 23 x 15 x 11 voxels"));
-  EXPECT_THAT(outcome.error, HasSubstr("optical depth of 8"));
+  EXPECT_THAT(outcome.error, HasSubstr("optical depth of 16"));
   const Image image = read_image(folder.file("a.pfm"));
   const Vector3 sky = pixel(image, 0, 0);
   for (int x = 0; x < image.width; ++x)

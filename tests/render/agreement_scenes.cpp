@@ -88,15 +88,6 @@ MediumDescription coloured(MediumDescription medium, Spectrum sigma_a, Spectrum 
 
 const Spectrum red{{0.3f, 1, 2.5f}}, blue{{3, 1.2f, 0.2f}}, tenth = constant_spectrum(0.1f);
 
-std::string write_sky(const std::string& folder) {
-  Image image{16, 8, {}};
-  for (std::uint32_t i = 0; i < 3 * 16 * 8; ++i) image.pixels.push_back(kernel::random_uniform(5, 0, i / 3, i % 3));
-  for (std::size_t i = 60; i < 72; ++i) image.pixels[i] = 20;  // a bright patch
-  const std::string path = folder + "/sky.exr";
-  write_image(path, image, {});
-  return path;
-}
-
 void add_media(std::vector<AgreementScene>& all) {
   const auto fog = homogeneous_medium("fog", 0.1f, 0.9f), ball = homogeneous_medium("ball", 0.2f, 1.5f);
   all.push_back({"homogeneous_box", view_of({fog}, {box_shape({-1, -1, -1}, {1, 1, 1}, "fog")})});
@@ -115,9 +106,9 @@ void add_media(std::vector<AgreementScene>& all) {
   cloud.kind = CloudMedium{48, 3};
   set_phase(cloud, "henyey_greenstein", {0.85f});
   all.push_back({"cloud", view_of({cloud}, {free_volume("cloud"), ground()})});
-  all.push_back({"thin_grid", view_of({smoke("smoke", 0, 0.01f)}, {free_volume("smoke")})});
+  all.push_back({"thin_grid", view_of({smoke("smoke", 0, 0.1f)}, {free_volume("smoke")})});
   all.push_back(
-      {"thin_fog", view_of({homogeneous_medium("fog", 0, 0.005f)}, {box_shape({-1, -1, -1}, {1, 1, 1}, "fog")})});
+      {"thin_fog", view_of({homogeneous_medium("fog", 0, 0.03f)}, {box_shape({-1, -1, -1}, {1, 1, 1}, "fog")})});
   all.push_back({"dense_grid", view_of({smoke("smoke", 1, 60)}, {free_volume("smoke")})});
   all.push_back({"dense_fog", view_of({homogeneous_medium("fog", 2, 60)}, {sphere_shape({0, 0, 0}, 1, "fog")})});
   all.push_back({"turned_grid", view_of({turned(smoke("smoke", 0.3f, 4), 50)}, {free_volume("smoke")})});
@@ -133,7 +124,7 @@ void add_phase_functions(std::vector<AgreementScene>& all) {
   const auto ball = [](const std::string& phase, std::vector<float> parameters) {
     SceneDescription s = view_of({with_phase(homogeneous_medium("ball", 0.1f, 2), phase, std::move(parameters))},
                                  {sphere_shape({0, 0, 0}, 1, "ball")});
-    s.lights = {sky(0.1f), distant_light({1, 0.3, -2}, 1), distant_light({-1, 0.3, 3}, 1)};
+    s.lights = {sky(0.1f), distant_light({1, 0.3, -2}, 1), distant_light({-3, 1, 1}, 1)};
     return s;
   };
   all.push_back({"phase_isotropic", ball("isotropic", {})});
@@ -209,7 +200,7 @@ void add_colours(std::vector<AgreementScene>& all) {
   all.push_back({"emission", s});
 }
 
-void add_surfaces(std::vector<AgreementScene>& all, const std::string& folder) {
+void add_surfaces(std::vector<AgreementScene>& all) {
   const auto fog = homogeneous_medium("fog", 0.02f, 0.2f);
   const auto grid = smoke("a", 0.2f, 3);
   const auto room = box_shape({-5, -2, -6}, {5, 4, 5}, "fog");
@@ -234,7 +225,7 @@ void add_surfaces(std::vector<AgreementScene>& all, const std::string& folder) {
   s.lights.clear();
   all.push_back({"area_lights", s});
   s = view_of({grid, fog}, {free_volume("a"), ground()});
-  s.lights = {{InfiniteLight{constant_spectrum(1), write_sky(folder)}, {}}};
+  s.lights = {{InfiniteLight{constant_spectrum(1), "sky.exr"}, {}}};
   all.push_back({"image_light", s});
   s.shapes.push_back(room);
   s.shapes.push_back(emitter(sphere_shape({1.2, 1, -0.5}, 0.2, ""), 10));
@@ -260,22 +251,22 @@ void add_depths(std::vector<AgreementScene>& all) {
 
 }  // namespace
 
-std::vector<AgreementScene> agreement_scenes(const std::string& folder) {
+std::vector<AgreementScene> agreement_scenes() {
   std::vector<AgreementScene> all;
   add_media(all);
   add_phase_functions(all);
   add_sets_of_media(all);
   add_colours(all);
-  add_surfaces(all, folder);
+  add_surfaces(all);
   add_depths(all);
   return all;
 }
 
-void scale_media(SceneDescription& scene, float factor) {
-  for (MediumDescription& m : scene.media) {
-    m.sigma_a = factor * m.sigma_a;
-    m.sigma_s = factor * m.sigma_s;
-  }
+void write_sky(const std::string& path) {
+  Image image{16, 8, {}};
+  for (std::uint32_t i = 0; i < 3 * 16 * 8; ++i) image.pixels.push_back(kernel::random_uniform(5, 0, i / 3, i % 3));
+  for (std::size_t i = 60; i < 72; ++i) image.pixels[i] = 20;  // a bright patch
+  write_image(path, image, {});
 }
 
 }  // namespace brume

@@ -1,6 +1,7 @@
 // Small scenes, each with one thing that integrators must agree on.
 #pragma once
 
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -13,10 +14,11 @@ struct AgreementScene {
   SceneDescription scene;
 };
 
-// Scenes of 32 x 32 pixels. `folder` takes the pictures of image lights, and must outlive the scenes.
-std::vector<AgreementScene> agreement_scenes(const std::string& folder);
+// How GoogleTest shows a scene.
+inline void PrintTo(const AgreementScene& scene, std::ostream* out) { *out << scene.name; }
 
-// A fault to plant in any scene: the first medium that is not black scatters, and attenuates, `factor` times as much.
-void scale_media(SceneDescription& scene, float factor);
+// Scenes of 32 x 32 pixels. Image lights name a file that does not exist: write_sky makes it.
+std::vector<AgreementScene> agreement_scenes();
+void write_sky(const std::string& path);
 
 }  // namespace brume

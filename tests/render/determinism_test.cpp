@@ -85,7 +85,7 @@ std::vector<float> part(const Film& film, const PixelBox& box) {
 // Twins: a window that is off by one pixel or row, and random numbers that count the window's pixels.
 TEST(Determinism, ACropWindowHasThePixelsOfTheWholePicture) {
   for (const auto sampler : samplers)
-    for (const char* integrator : {"classic", "reference"}) {
+    for (const char* integrator : {"classic", "reference", "volpath"}) {
       SceneDescription s = busy_scene(sampler);
       s.integrator.name = integrator;
       const Film whole = render_film(s, 2);

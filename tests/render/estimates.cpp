@@ -9,10 +9,12 @@
 namespace brume {
 
 Estimate estimate(const SceneDescription& scene, int samples, int channel) {
-  // One sample to each pixel of a square film, all of which look through the same needle's eye.
+  // The pixels of a square film all look through the same needle's eye. Integrators that follow many paths at a time
+  // are at their best with several samples a pixel.
   SceneDescription s = scene;
-  s.film.width = s.film.height = static_cast<int>(std::ceil(std::sqrt(samples)));
-  const Image image = render_film(s, 1, 2).image();
+  const int samples_per_pixel = samples < 200000 ? 1 : 16;
+  s.film.width = s.film.height = static_cast<int>(std::ceil(std::sqrt(samples / samples_per_pixel)));
+  const Image image = render_film(s, samples_per_pixel, 2).image();
   double sum = 0, squares = 0;
   const int n = s.film.width * s.film.height;
   for (int i = 0; i < n; ++i) {

@@ -7,7 +7,7 @@
 
 namespace brume {
 
-inline auto path_tracers() { return ::testing::Values("reference"); }
+inline auto path_tracers() { return ::testing::Values("reference", "volpath"); }
 
 // For INSTANTIATE_TEST_SUITE_P.
 inline std::string integrator_name(const ::testing::TestParamInfo<const char*>& test) { return test.param; }

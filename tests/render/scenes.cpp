@@ -14,6 +14,7 @@ SceneDescription needle_scene(Vector3 eye) {
   s.sampler.kind = SamplerDescription::Kind::independent;  // the statistical tests need samples without relation
   s.camera.fov = 1e-5;
   s.camera.world_from_camera = translate(eye);
+  s.integrator.name = "classic";
   s.integrator.max_depth = 1;
   return s;
 }

@@ -21,6 +21,7 @@ struct Slab {
   std::vector<float> phase_parameters;
   float albedo, thickness;
   double reflectance, transmittance, rounding;  // transmittance below 0: a half-space
+  double quick_error = 3e-3;                    // relative, of the short form; more where paths are long
 };
 
 void PrintTo(const Slab& slab, std::ostream* out) { *out << slab.name; }
@@ -49,19 +50,19 @@ void expect_table(const Slab& slab, double relative_error) {
 }
 
 class Slabs : public ::testing::TestWithParam<Slab> {};
-TEST_P(Slabs, ReflectAndTransmitAsTheTablesSay) { expect_table(GetParam(), 3e-3); }
+TEST_P(Slabs, ReflectAndTransmitAsTheTablesSay) { expect_table(GetParam(), GetParam().quick_error); }
 class NightlySlabs : public Slabs {};
 TEST_P(NightlySlabs, ReflectAndTransmitAsTheTablesSay) { expect_table(GetParam(), 2e-4); }
 
 std::string slab_name(const ::testing::TestParamInfo<Slab>& test) { return test.param.name; }
 
-const auto slabs =
-    ::testing::Values(Slab{"HG_075_albedo_09_b_2", "henyey_greenstein", {0.75f}, 0.9f, 2, 0.097395, 0.660958, 5e-7},
-                      Slab{"isotropic_conservative_b_1", "isotropic", {}, 1, 1, 0.341329, 0.658671, 5e-7},
-                      Slab{"isotropic_albedo_09_b_1", "isotropic", {}, 0.9f, 1, 0.267410, 0.591625, 5e-7},
-                      Slab{"HG_085_conservative_b_16", "henyey_greenstein", {0.85f}, 1, 16, 0.55721, 0.44279, 5e-6},
-                      Slab{"HG_085_albedo_0999_b_8", "henyey_greenstein", {0.85f}, 0.999f, 8, 0.352121, 0.632507, 5e-7},
-                      Slab{"Rayleigh_conservative_b_1", "rayleigh", {}, 1, 1, 0.340471, 0.659529, 5e-7});
+const auto slabs = ::testing::Values(
+    Slab{"HG_075_albedo_09_b_2", "henyey_greenstein", {0.75f}, 0.9f, 2, 0.097395, 0.660958, 5e-7},
+    Slab{"isotropic_conservative_b_1", "isotropic", {}, 1, 1, 0.341329, 0.658671, 5e-7},
+    Slab{"isotropic_albedo_09_b_1", "isotropic", {}, 0.9f, 1, 0.267410, 0.591625, 5e-7},
+    Slab{"HG_085_conservative_b_16", "henyey_greenstein", {0.85f}, 1, 16, 0.55721, 0.44279, 5e-6, 1e-2},
+    Slab{"HG_085_albedo_0999_b_8", "henyey_greenstein", {0.85f}, 0.999f, 8, 0.352121, 0.632507, 5e-7, 1e-2},
+    Slab{"Rayleigh_conservative_b_1", "rayleigh", {}, 1, 1, 0.340471, 0.659529, 5e-7});
 INSTANTIATE_TEST_SUITE_P(Transport, Slabs, slabs, slab_name);
 INSTANTIATE_TEST_SUITE_P(NightlyTransport, NightlySlabs, slabs, slab_name);
 
@@ -69,8 +70,8 @@ INSTANTIATE_TEST_SUITE_P(NightlyTransport, NightlySlabs, slabs, slab_name);
 const auto half_spaces =
     ::testing::Values(Slab{"isotropic_05", "isotropic", {}, 0.5f, 40, 0.115226, -1, 5e-7},
                       Slab{"isotropic_09", "isotropic", {}, 0.9f, 40, 0.414947, -1, 5e-7},
-                      Slab{"isotropic_099", "isotropic", {}, 0.99f, 100, 0.752721, -1, 5e-7},
-                      Slab{"HG_075_099", "henyey_greenstein", {0.75f}, 0.99f, 200, 0.559170, -1, 5e-7});
+                      Slab{"isotropic_099", "isotropic", {}, 0.99f, 100, 0.752721, -1, 5e-7, 1e-2},
+                      Slab{"HG_075_099", "henyey_greenstein", {0.75f}, 0.99f, 200, 0.559170, -1, 5e-7, 1e-2});
 INSTANTIATE_TEST_SUITE_P(HalfSpaces, Slabs, half_spaces, slab_name);
 INSTANTIATE_TEST_SUITE_P(NightlyHalfSpaces, NightlySlabs, half_spaces, slab_name);
 
