@@ -1,8 +1,13 @@
 #!/usr/bin/env bash
-# Renders the pictures of README.md and docs/ anew, with the release build.
+# Renders the pictures of README.md and docs/ anew, with the release build. Takes some minutes.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 scripts/build.sh release brume
 mkdir -p docs/images
-build/release/bin/brume --example --resolution 720x405 --spp 16 -o docs/images/cloud.png
+brume=build/release/bin/brume
+"$brume" --example --resolution 720x405 --spp 256 -o docs/images/cloud.png
+"$brume" --example --resolution 480x300 --spp 8 --integrator classic -o docs/images/cloud_single.png
+"$brume" --example --resolution 480x300 --spp 128 -o docs/images/cloud_multiple.png
+"$brume" scenes/lamp_in_fog.pbrt --resolution 480x300 --spp 256 -o docs/images/lamp_in_fog.png
+"$brume" scenes/two_clouds.pbrt --resolution 480x300 --spp 128 -o docs/images/two_clouds.png

@@ -141,10 +141,17 @@ void Compiler::add_volume(std::int32_t medium) {
 }
 
 void Compiler::boxes_to_volumes() {
+  // More of them could overlap than a path can follow; boundaries say where.
+  if (compiled_.boundaries.size() > max_active_media) return;
+  // A medium that some shape displaces is counted along rays.
+  const auto is_displaced = [&](std::int32_t medium) {
+    return std::any_of(compiled_.boundaries.begin(), compiled_.boundaries.end(),
+                       [&](const CompiledBoundary& b) { return b.outside == medium; });
+  };
   const auto to_volume = [&](const CompiledShape& shape) {
     if (shape.kind != CompiledShape::Kind::mesh || shape.material >= 0 || shape.boundary < 0) return false;
     const CompiledBoundary& boundary = compiled_.boundaries[static_cast<std::size_t>(shape.boundary)];
-    if (boundary.inside == no_medium || boundary.outside != no_medium) return false;
+    if (boundary.inside == no_medium || boundary.outside != no_medium || is_displaced(boundary.inside)) return false;
     const std::optional<Transform> world_from_unit = as_box(compiled_, compiled_.meshes[shape.index]);
     if (!world_from_unit) return false;
     const CompiledMedium& medium = compiled_.media[static_cast<std::size_t>(boundary.inside)];
