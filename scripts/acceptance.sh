@@ -1,28 +1,43 @@
 #!/usr/bin/env bash
-# scripts/acceptance.sh FOLDER: holds renders of FOLDER/peers/*.pbrt against long renders of the same scenes by another
-# renderer, FOLDER/peers/*_ref.exr, by the ratio of their means. Takes some minutes; not part of the tests.
+# scripts/acceptance.sh FOLDER: holds this renderer against what lies in a folder outside the repository.
+# - Transmittance: tracking against exact optical depths, on rays through each grid of FOLDER/data/*.vdb and *.nvdb.
+# - Pictures: renders of FOLDER/peers/*.pbrt against long renders of the same scenes by another renderer,
+#   FOLDER/peers/*_ref.exr: the ratio of the means, and whether their differences have structure.
+# Takes some minutes; not part of the tests. BUILD names another preset than release.
 set -euo pipefail
 folder=$(cd "${1:?usage: scripts/acceptance.sh FOLDER}" && pwd)
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-scripts/build.sh release brume
-brume=build/release/bin/brume
+preset=${BUILD:-release}
+scripts/build.sh "$preset" brume check_transmittance check_block_scores
+programs=build/$preset/bin
+brume=$programs/brume
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-
-# scene, integrator, and how far the ratio of the means may be from 1. The fog has outliers
-# near its lamp, and at the scene's 16 samples a pixel its mean may miss the limit by noise.
 failed=0
-while read -r scene integrator limit; do
-  "$brume" "$folder/peers/$scene.pbrt" --integrator "$integrator" --quiet -o "$work/$scene.exr"
+
+echo "Transmittance"
+shopt -s nullglob
+"$programs/check_transmittance" "$folder"/data/*.vdb "$folder"/data/*.nvdb || failed=1
+
+# Scene, samples a pixel, how far the ratio of the means may be from 1, and whether blocks are judged: the fogs have
+# outliers near their lamp, which blocks show and means hardly do.
+echo "Pictures"
+while read -r scene samples limit judged; do
+  sed -E -e "s#\"\.\./data/#\"$folder/data/#" -e "s/^Sampler .*/Sampler \"independent\"/" \
+    "$folder/peers/$scene.pbrt" > "$work/$scene.pbrt"
+  "$brume" "$work/$scene.pbrt" --spp "$samples" --quiet -o "$work/$scene.exr"
   ratio=$("$brume" compare "$work/$scene.exr" "$folder/peers/${scene}_ref.exr" --json |
     sed -E 's/^[^}]*"mean_ratio": ([^,]*),.*/\1/')
   verdict=$(awk -v r="$ratio" -v l="$limit" 'BEGIN { d = r - 1; print (d <= l && -d <= l) ? "agrees" : "DIFFERS" }')
-  echo "$scene: $integrator over the reference $ratio, limit $limit: $verdict"
+  echo "$scene: mean over the reference's $ratio, limit $limit: $verdict"
   [[ $verdict == agrees ]] || failed=1
-done <<'EOF'
-cloud reference 0.003
-smoke reference 0.003
-fog reference 0.01
-fog_single classic 0.01
-EOF
+  echo -n "$scene: scores of blocks, $judged: "
+  "$programs/check_block_scores" "$work/$scene.exr" "$folder/peers/${scene}_ref.exr" ||
+    [[ $judged != judged ]] || failed=1
+done <<'END'
+cloud 16 0.003 judged
+smoke 64 0.003 judged
+fog 64 0.01 shown
+fog_single 64 0.01 shown
+END
 exit $failed

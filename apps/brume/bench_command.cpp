@@ -11,14 +11,17 @@ const char* const help_text =
     R"(Usage: brume bench [options]     how fast this machine is at what rendering is made of
 
   --json          one JSON object instead of a table
-  --size N        voxels along the cloud's longest side, 8 to 2048; may be repeated.
+  --size N        voxels along a cloud's longest side, 8 to 2048; may be repeated.
                   Default: 256 and 512. The first is measured with every instruction set
-                  and storage, the others with the best set and 16 bits a voxel. Making
-                  a cloud of 1024 takes minutes
+                  and storage, the others with the best set and 16 bits a voxel. The
+                  cloud is made with at most 256 voxels and enlarged beyond
+  --sparse N      voxels along the sides of a volume of scattered puffs, a tenth of it in
+                  use, 8 to 2048; may be repeated. Default: 1024. Where one of --size and
+                  --sparse is given, the other has no default
   --time SECONDS  for each line, default 0.5; the best of five rounds is shown
-  --nthreads N    to make the clouds with, default 0: one per core. One thread is measured.
+  --nthreads N    to make the volumes with, default 0: one per core. One thread is measured.
 
-  tracking      paths in a cloud of optical depth 100, albedo 1 and g = 0.85 from collision
+  tracking      paths in a volume of optical depth 100, albedo 1 and g = 0.85 from collision
                 to collision; an event is a step through a cell of majorants or a look-up
                 of the density. Scattering is part of the time
   marching      look-ups with linear interpolation along straight rays
@@ -29,22 +32,30 @@ struct Arguments {
   bool json = false, help = false;
 };
 
+std::vector<int> parse_sizes(const char* option, const std::vector<std::string>& texts) {
+  std::vector<int> sizes;
+  for (const std::string& text : texts) sizes.push_back(static_cast<int>(parse_number(option, text, 8, 2048)));
+  return sizes;
+}
+
 Arguments parse_arguments(const std::vector<std::string>& given) {
   Arguments a;
-  std::vector<std::string> sizes;
+  std::vector<std::string> sizes, sparse_sizes;
   std::string seconds, threads;
   CLI::App app;
   app.set_help_flag();
   app.add_flag("-h,--help", a.help);
   app.add_flag("--json", a.json);
   app.add_option("--size", sizes)->allow_extra_args(false);
+  app.add_option("--sparse", sparse_sizes)->allow_extra_args(false);
   app.add_option("--time", seconds);
   app.add_option("--nthreads", threads);
   parse(app, given);
   if (a.help) return a;
-  if (!sizes.empty()) a.options.sizes.clear();
-  for (const std::string& size : sizes)
-    a.options.sizes.push_back(static_cast<int>(parse_number("--size", size, 8, 2048)));
+  if (!sizes.empty() || !sparse_sizes.empty()) {
+    a.options.sizes = parse_sizes("--size", sizes);
+    a.options.sparse_sizes = parse_sizes("--sparse", sparse_sizes);
+  }
   if (!seconds.empty()) a.options.seconds = parse_seconds("--time", seconds);
   if (!threads.empty()) a.options.threads = static_cast<int>(parse_number("--nthreads", threads, 0, 4096));
   return a;
@@ -54,7 +65,7 @@ const char* or_dash(const std::string& text) { return text.empty() ? "-" : text.
 
 void show_table(const brume::BenchOptions& options) {
   std::printf("%s, one thread\n\n", brume::bench_machine().c_str());
-  std::puts("| measured | cloud | storage | instruction set | millions a second |");
+  std::puts("| measured | volume | storage | instruction set | millions a second |");
   std::puts("|---|---|---|---|---|");
   brume::bench(options, [](const brume::BenchResult& r) {
     std::printf("| %s, %s | %s | %s | %s | %.1f |\n", r.measured.c_str(), r.unit.c_str(), or_dash(r.grid),
@@ -69,7 +80,7 @@ void show_json(const brume::BenchOptions& options) {
   bool first = true;
   brume::bench(options, [&](const brume::BenchResult& r) {
     std::printf(
-        "%s\n  {\"measured\": \"%s\", \"unit\": \"%s\", \"cloud\": \"%s\", \"storage\": \"%s\", "
+        "%s\n  {\"measured\": \"%s\", \"unit\": \"%s\", \"volume\": \"%s\", \"storage\": \"%s\", "
         "\"instruction_set\": \"%s\", \"per_second\": %.6g}",
         first ? "" : ",", r.measured.c_str(), r.unit.c_str(), r.grid.c_str(), r.storage.c_str(),
         r.instruction_set.c_str(), r.per_second);

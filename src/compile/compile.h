@@ -7,10 +7,14 @@
 #include "base/diagnostics.h"
 #include "compiled/compiled_scene.h"
 #include "scene/description.h"
+#include "volume/volume_grid.h"
 
 namespace brume {
 
 // Throws InputError, with all errors found; warnings are appended.
 CompiledScene compile(const SceneDescription& scene, int threads, std::vector<Diagnostic>& warnings);
+
+// A grid by itself, for linear or nearest interpolation.
+CompiledGrid compile_grid(VolumeGrid grid, bool linear, int threads);
 
 }  // namespace brume

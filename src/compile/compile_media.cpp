@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "compile/compile.h"
 #include "compile/compiler.h"
 #include "kernel/phase_table.h"
 #include "volume/majorant_cells.h"
@@ -44,6 +45,8 @@ VolumeGrid load_grid(const MediumDescription& medium, int threads) {
 constexpr std::size_t majorant_bytes = 64 * 1024;
 constexpr int finest_majorant_edge = 4;  // voxels
 
+}  // namespace
+
 CompiledGrid compile_grid(VolumeGrid grid, bool linear, int threads) {
   const Box3 support = support_index(grid, linear);
   CompiledGrid c;
@@ -64,8 +67,6 @@ CompiledGrid compile_grid(VolumeGrid grid, bool linear, int threads) {
   c.words = std::move(grid.bricks.words);
   return c;
 }
-
-}  // namespace
 
 std::int32_t Compiler::medium_index(const std::string& name, const Location& used_at) {
   if (name.empty()) return no_medium;

@@ -24,7 +24,10 @@ struct PathColumns {
   // ...and that density for each channel as the hero, over the one of the hero that was: the balance heuristic over
   // heroes divides by the mean. Used only where extinction differs between channels.
   float* rescale[3] = {};
+  // What the path has met by itself, and what shadow rays have brought: two sums, since shadow rays arrive whenever
+  // there is no room for more of them, and the bits of a sum depend on its order.
   float* radiance[3] = {};
+  float* gathered[3] = {};
   // The density of the ray's direction per unit of solid angle; negative where a light cannot have sampled it.
   float* direction_density = nullptr;
   std::uint32_t* depth = nullptr;   // how often it was scattered

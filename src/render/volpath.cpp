@@ -105,8 +105,8 @@ VolpathIntegrator::VolpathIntegrator(const CompiledScene& scene, const Intersect
   paths_.flight.t = memory_.floats();
   paths_.flight.medium = memory_.integers();
   paths_.flight.passed = memory_.floats();
-  for (auto* columns :
-       {&paths_.flight.weight, &paths_.throughput, &paths_.rescale, &paths_.radiance, &shadows_.value, &transmittance_})
+  for (auto* columns : {&paths_.flight.weight, &paths_.throughput, &paths_.rescale, &paths_.radiance, &paths_.gathered,
+                        &shadows_.value, &transmittance_})
     memory_.make_floats(*columns);
   paths_.direction_density = memory_.floats();
   paths_.depth = memory_.words();
@@ -199,13 +199,13 @@ void VolpathIntegrator::start_paths(Tile& tile) {
   }
   find_sample_points(scene_, fresh_, fresh, point_dimensions + 2, fresh_points_);
   for (std::uint32_t i = 0; i < fresh; ++i) {
-    start_path(idle_.back(), i, tile, tile.next + i);
+    start_path(idle_.back(), i, tile.next + i);
     idle_.pop_back();
   }
   tile.next += fresh;
 }
 
-void VolpathIntegrator::start_path(std::uint32_t path, std::uint32_t fresh, const Tile&, std::uint32_t target) {
+void VolpathIntegrator::start_path(std::uint32_t path, std::uint32_t fresh, std::uint32_t target) {
   const std::uint32_t x = fresh_.x[fresh], y = fresh_.y[fresh], sample = fresh_.sample[fresh];
   const FilterSample place = filter_.sample(fresh_points_[0][fresh], fresh_points_[1][fresh]);
   filter_weights_[target] = place.weight;
@@ -225,6 +225,7 @@ void VolpathIntegrator::start_path(std::uint32_t path, std::uint32_t fresh, cons
   set(paths_.throughput, path, constant_spectrum(1));
   set(paths_.rescale, path, constant_spectrum(1));
   set(paths_.radiance, path, Spectrum{});
+  set(paths_.gathered, path, Spectrum{});
   paths_.direction_density[path] = -1;
   paths_.depth[path] = 0;
   paths_.target[path] = target;
@@ -448,7 +449,7 @@ void VolpathIntegrator::gather_shadow_rays() {
   pass(shadows_.ray);
   if (!placement_jobs_.empty()) pass(shadows_.lead);
   for (std::uint32_t i = 0; i < shadow_count_; ++i)
-    for (int c = 0; c < 3; ++c) paths_.radiance[c][shadows_.path[i]] += shadows_.value[c][i];
+    for (int c = 0; c < 3; ++c) paths_.gathered[c][shadows_.path[i]] += shadows_.value[c][i];
   shadow_count_ = 0;
 }
 
@@ -456,7 +457,7 @@ void VolpathIntegrator::gather_shadow_rays() {
 void VolpathIntegrator::finish_paths() {
   for (std::uint32_t i = 0; i < path_count; ++i) {
     if (paths_.ray.t_max[i] > 0 || paths_.target[i] == idle) continue;
-    sums_[paths_.target[i]] = spectrum_at(paths_.radiance, i);
+    sums_[paths_.target[i]] = spectrum_at(paths_.radiance, i) + spectrum_at(paths_.gathered, i);
     paths_.target[i] = idle;
     idle_.push_back(i);
   }

@@ -57,7 +57,7 @@ class VolpathIntegrator {
 
   void make_jobs();
   void start_paths(Tile& tile);
-  void start_path(std::uint32_t path, std::uint32_t fresh, const Tile& tile, std::uint32_t target);
+  void start_path(std::uint32_t path, std::uint32_t fresh, std::uint32_t target);
   void find_surfaces();
   void place_lights_along_flights();
   void end_flights();

@@ -15,6 +15,8 @@
 #include "session/furnace.h"
 #include "session/instruction_set_choice.h"
 #include "session/version.h"
+#include "volume/procedural.h"
+#include "volume/resample.h"
 
 namespace brume {
 
@@ -42,7 +44,7 @@ double rate_of(double seconds, Run&& run) {
 
 float random_number(std::uint32_t ray, std::uint32_t number) { return kernel::random_uniform(1, 0, ray, number); }
 
-// Straight through the cloud of a furnace.
+// Straight through the volume of a furnace.
 double marching_rate(const CompiledScene& scene, double seconds) {
   const CompiledGrid& grid = scene.grids.front();
   DensityStretches stretches;
@@ -116,23 +118,33 @@ void bench(const BenchOptions& options, const std::function<void(const BenchResu
   with_public_errors([&] {
     apply_instruction_set_choice();
     const InstructionSet best = current_instruction_set();
-    const auto measure = [&](int size, int bits, const std::vector<InstructionSet>& sets) {
-      const CompiledScene scene = furnace_scene(size, bits, options.threads);
+    const auto measure = [&](const std::string& name, VolumeGrid grid, const std::vector<InstructionSet>& sets) {
+      const std::string storage = fmt::format("{} bits", static_cast<int>(grid.bricks.storage));
+      const CompiledScene scene = furnace_scene(std::move(grid), options.threads);
       for (const InstructionSet& set : sets) {
         use_instruction_set(set.name);
         FurnacePaths paths(scene);
         const auto result = [&](const char* measured, const char* unit, double rate) {
-          on_result({measured, unit, std::to_string(size), fmt::format("{} bits", bits), std::string(set.title), rate});
+          on_result({measured, unit, name, storage, std::string(set.title), rate});
         };
         result("tracking", "events", rate_of(options.seconds, [&] { return paths.advance(); }));
         result("marching", "look-ups", marching_rate(scene, options.seconds));
       }
       use_instruction_set(best.name);
     };
+    // One cloud, resampled: to make each anew would take longer than to measure them.
+    VolumeGrid cloud;
+    if (!options.sizes.empty())
+      cloud = procedural_cloud({std::min(options.sizes[0], 256), 0, Storage::f32}, options.threads);
     for (std::size_t i = 0; i < options.sizes.size(); ++i)
-      for (const int bits : {8, 16, 32})
-        if (i == 0 || bits == 16)
-          measure(options.sizes[i], bits, i == 0 ? available_instruction_sets() : std::vector{best});
+      for (const Storage storage : {Storage::u8, Storage::u16, Storage::f32})
+        if (i == 0 || storage == Storage::u16) {
+          const int size = options.sizes[i];
+          measure(std::to_string(size), resample(cloud, {size, (6 * size + 9) / 10, size}, storage, options.threads),
+                  i == 0 ? available_instruction_sets() : std::vector{best});
+        }
+    for (const int size : options.sparse_sizes)
+      measure(fmt::format("{} sparse", size), scattered_puffs(size, Storage::u16), {best});
     on_result({"surface rays", "rays", "", "", "", surface_ray_rate(options.seconds)});
   });
 }

@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "compile/compile.h"
+#include "kernel/phase_table.h"
 
 namespace brume {
 
@@ -14,26 +15,20 @@ constexpr std::uint32_t path_count = 1024;  // as many as volpath has in flight
 
 }  // namespace
 
-CompiledScene furnace_scene(int size, int bits, int threads) {
-  SceneDescription scene;
-  scene.integrator.name = "volpath";
-  MediumDescription cloud;
-  cloud.name = "cloud";
-  cloud.kind = CloudMedium{size, 0};
-  cloud.storage_bits = bits;
-  cloud.sigma_a = constant_spectrum(0);
-  cloud.phase_parameters = {0.85f};
-  scene.media = {cloud};
-  ShapeDescription& shape = scene.shapes.emplace_back();
-  shape.kind = VolumeShape{};
-  shape.material = InterfaceMaterial{};
-  shape.inside = "cloud";
-  std::vector<Diagnostic> warnings;
-  CompiledScene compiled = compile(scene, thread_count(threads), warnings);
-  CompiledMedium& medium = compiled.media.front();
-  const float edge = 2;  // of the cloud's box
-  medium.sigma_t = medium.sigma_s = constant_spectrum(100 / (edge * compiled.grids.front().max_density));
-  return compiled;
+CompiledScene furnace_scene(VolumeGrid grid, int threads) {
+  CompiledMedium medium;
+  medium.phase = phase_kind("henyey_greenstein");
+  const float g = 0.85f;
+  medium.phase_prepared = phase_functions()[static_cast<std::size_t>(medium.phase)].prepare(&g);
+  medium.grid = 0;
+  medium.index_from_world = inverse(grid.medium_from_index);
+  CompiledGrid compiled = compile_grid(std::move(grid), medium.linear, thread_count(threads));
+  medium.sigma_t = medium.sigma_s = constant_spectrum(100 / (2 * compiled.max_density));
+  CompiledScene scene;
+  scene.volumes = {{0, medium.index_from_world, compiled.bounds_lo, compiled.bounds_hi}};
+  scene.media = {medium};
+  scene.grids.push_back(std::move(compiled));
+  return scene;
 }
 
 FurnacePaths::FurnacePaths(const CompiledScene& scene)
@@ -68,7 +63,7 @@ FurnacePaths::FurnacePaths(const CompiledScene& scene)
   for (std::uint32_t path = 0; path < path_count; ++path) start(path);
 }
 
-// At a random place of the cloud's side z = -1, about along +z.
+// At a random place of the volume's side z = -1, about along +z.
 void FurnacePaths::start(std::uint32_t path) {
   const std::uint32_t number = started_++;
   const auto random = [&](std::uint32_t i) { return kernel::random_uniform(1, 0, number, i); };

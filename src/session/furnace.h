@@ -1,21 +1,22 @@
-// Paths through a cloud in a white furnace: what tracking costs, without lights, surfaces and film.
+// Paths through a volume in a white furnace: what tracking costs, without lights, surfaces and film.
 #pragma once
 
 #include <cstdint>
 
 #include "render/scatter.h"
+#include "volume/volume_grid.h"
 
 namespace brume {
 
-// The procedural cloud with `size` voxels along its longest side, kept with `bits` bits a voxel; optical depth 100
-// across at its densest, albedo 1, henyey_greenstein with g = 0.85.
-CompiledScene furnace_scene(int size, int bits, int threads);
+// The grid, two units across, as the one medium: optical depth 100 across at its densest, albedo 1, henyey_greenstein
+// with g = 0.85.
+CompiledScene furnace_scene(VolumeGrid grid, int threads);
 
 class FurnacePaths {
  public:
   explicit FurnacePaths(const CompiledScene& scene);
 
-  // Brings all paths to their next collision and scatters them there; those that leave the cloud begin anew. Returns
+  // Brings all paths to their next collision and scatters them there; those that leave the volume begin anew. Returns
   // the number of events: steps through cells of majorants, and look-ups of the density.
   std::int64_t advance();
 

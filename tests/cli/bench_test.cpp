@@ -22,12 +22,12 @@ Outcome bench(std::vector<std::string> arguments) {
   return run(folder.path(), arguments);
 }
 
-// A line for each instruction set and storage of the first size, one for another size, each with a rate above 0.
+// Lines for each instruction set and storage of the first size, and for the other volumes, each with a rate above 0.
 TEST(Bench, PrintsATable) {
-  const Outcome outcome = bench({"--size", "32"});
+  const Outcome outcome = bench({"--size", "32", "--sparse", "40"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
   EXPECT_THAT(outcome.error, IsEmpty());
-  EXPECT_THAT(outcome.out, HasSubstr("one thread\n\n| measured | cloud | storage | instruction set |"));
+  EXPECT_THAT(outcome.out, HasSubstr("one thread\n\n| measured | volume | storage | instruction set |"));
   const auto lines = [&](const std::string& pattern) {
     const std::regex line(pattern);
     return std::distance(std::sregex_iterator(outcome.out.begin(), outcome.out.end(), line), {});
@@ -40,6 +40,8 @@ TEST(Bench, PrintsATable) {
                 1)
           << set.title << bits;
   EXPECT_EQ(lines("\\| 32 \\| 16 bits "), 2);
+  EXPECT_EQ(lines("tracking, events \\| 40 sparse \\| 16 bits \\| [^|]+ " + rate), 1);
+  EXPECT_EQ(lines("marching, look-ups \\| 40 sparse \\| 16 bits \\| [^|]+ " + rate), 1);
   EXPECT_EQ(lines("surface rays, rays \\| - \\| - \\| - " + rate), 1);
 }
 
@@ -47,7 +49,7 @@ TEST(Bench, PrintsJson) {
   const Outcome outcome = bench({"--json"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
   EXPECT_THAT(outcome.out, StartsWith("{\"machine\": \""));
-  EXPECT_THAT(outcome.out, HasSubstr("{\"measured\": \"tracking\", \"unit\": \"events\", \"cloud\": \"24\", "
+  EXPECT_THAT(outcome.out, HasSubstr("{\"measured\": \"tracking\", \"unit\": \"events\", \"volume\": \"24\", "
                                      "\"storage\": \"8 bits\", \"instruction_set\": \""));
   EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '{'),
             std::count(outcome.out.begin(), outcome.out.end(), '}'));
@@ -57,6 +59,7 @@ TEST(Bench, MistakesAreNamed) {
   const TemporaryFolder folder;
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"bench", "--size", "7"}, "--size: \"7\" is not a whole number from 8 to 2048"},
+      {{"bench", "--sparse", "4096"}, "--sparse: \"4096\" is not a whole number from 8 to 2048"},
       {{"bench", "--time", "0"}, "--time: \"0\" is not a number of seconds above 0"},
       {{"bench", "cloud.vdb"}, "unexpected argument \"cloud.vdb\""},
   };

@@ -143,7 +143,7 @@ void add_sets_of_media(std::vector<AgreementScene>& all) {
   all.push_back({"two_grids", view_of({a, b}, {free_volume("a"), free_volume("b")})});
   all.push_back({"a_grid_twice", view_of({a}, {free_volume("a"), free_volume("a")})});
   SceneDescription s = view_of({fog, a}, {free_volume("a"), box_shape({-5, -2, -6}, {5, 3, 5}, "fog"), ground()});
-  s.lights = {sky(0.2f), point_light({1, 1.5, -1.5}, 4)};
+  s.lights = {sky(0.2f), point_light({1, 6, -1.5}, 80)};  // a lamp in the fog has heavy tails
   all.push_back({"grid_in_fog", s});
   all.push_back({"three_media",
                  view_of({fog, a, b, ball}, {free_volume("a"), free_volume("b"), sphere_shape({0.4, 0, 0}, 0.9, "ball"),
@@ -161,7 +161,7 @@ void add_sets_of_media(std::vector<AgreementScene>& all) {
   all.push_back({"fog_everywhere", s});
   s = view_of({fog, ball}, {sphere_shape({0, 0, 0}, 3, "fog"), sphere_shape({0.4, 0, 0}, 1, "ball", "fog"),
                             octahedron(0.5, "", "ball")});
-  s.lights.push_back(point_light({-1.5, 1, -1}, 3));
+  s.lights.push_back(point_light({-6, 3, -1}, 60));
   all.push_back({"nested_boundaries", s});
   all.push_back({"touching_boxes", view_of({ball}, {box_shape({-1, -1, -1}, {0.2, 1, 1}, "ball"),
                                                     box_shape({0.2, -1, -1}, {1, 1, 1}, "ball")})});

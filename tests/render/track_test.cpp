@@ -195,6 +195,38 @@ TEST_F(Track, FaultsAreRejected) {
   EXPECT_GT(s.total(), 8);
 }
 
+// What is left of a split track is its transmittance, and the rest of it has collided up to a depth of d as often as
+// light has: the mean of (1 - weight) over collisions before d is 1 - e^-d.
+TEST_F(Track, SplitTracksAreWorthWhatTheyAre) {
+  const CompiledScene scene = volume(16, true);
+  const DensityStretches stretches = random_stretches(scene.grids[0]);
+  const std::vector<float> depths = exact_depths(scene, stretches);
+  const double sigma = 0.3;
+  const TrackedGrid grid = tracked(scene, constant_spectrum(0.3f));
+  for (const InstructionSet& set : available_instruction_sets()) {
+    ASSERT_TRUE(use_instruction_set(set.name));
+    TrackTasks tasks = make_tasks(stretches, copies);
+    TrackCounts counts;
+    track_split(grid, tasks, counts);
+    EXPECT_EQ(counts.majorant_violations, 0);
+    const TrackColumns& c = tasks.columns;
+    const auto left = [&](std::size_t task) { return c.weight[0][task]; };
+    EXPECT_TRUE(score(depths, sigma, copies, left).agree()) << set.name;
+    EXPECT_GT(score(depths, 1.02 * sigma, copies, left).total(), 8);
+
+    DensityStretches halves = stretches;
+    for (float& length : halves.length) length *= 0.5f;
+    const std::vector<float> half_depths = exact_depths(scene, halves);
+    const auto not_in_first_half = [&](std::size_t task) {
+      const bool collided = c.result[task] >= 0 && c.result[task] < 0.5f * c.length[task];
+      return collided ? c.weight[0][task] : 1;
+    };
+    const Scores s = score(half_depths, sigma, copies, not_in_first_half);
+    EXPECT_TRUE(s.agree()) << set.name << " z " << s.mean << " +- " << s.deviation;
+    EXPECT_GT(score(half_depths, 1.05 * sigma, copies, not_in_first_half).total(), 8);
+  }
+}
+
 // Where channels differ: transmittance in each of them, and flights that one of them steers, weighted for the others.
 TEST_F(Track, EachChannelHasItsOwnTransmittance) {
   const CompiledScene scene = volume(16, true);
@@ -284,8 +316,10 @@ TEST_F(Track, AResultDoesNotDependOnItsNeighbours) {
     for (const std::uint32_t only : {0u, 17u, 999u}) {
       TrackTasks one = make_tasks(stretches, 1);
       const TrackColumns& c = one.columns;
-      for (auto* columns : {&c.entry, &c.direction})
-        for (float* column : *columns) column[0] = column[only];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        c.entry[axis][0] = c.entry[axis][only];
+        c.direction[axis][0] = c.direction[axis][only];
+      }
       c.length[0] = c.length[only];
       c.optical_depth[0] = c.optical_depth[only];
       c.pixel[0] = c.pixel[only];

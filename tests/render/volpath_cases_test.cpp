@@ -23,6 +23,7 @@ struct Case {
   std::vector<float> phase_parameters;
   float albedo, thickness;
   double reflectance, transmittance, rounding;  // transmittance below 0: a half-space
+  double quick_error = 1e-3;                    // relative, of the short form; more where paths are long
 };
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
@@ -57,23 +58,23 @@ void expect_case(const Case& c, double relative_error) {
 }
 
 class VolpathSlabs : public ::testing::TestWithParam<Case> {};
-TEST_P(VolpathSlabs, ReflectAndTransmitAsTheTablesSay) { expect_case(GetParam(), 1e-3); }
+TEST_P(VolpathSlabs, ReflectAndTransmitAsTheTablesSay) { expect_case(GetParam(), GetParam().quick_error); }
 class NightlyVolpathSlabs : public ::testing::TestWithParam<Case> {};
 TEST_P(NightlyVolpathSlabs, ReflectAndTransmitAsTheTablesSay) { expect_case(GetParam(), 2e-4); }
 
-const auto cases =
-    ::testing::Values(Case{"HG_075_albedo_09_b_2", "henyey_greenstein", {0.75f}, 0.9f, 2, 0.097395, 0.660958, 5e-7},
-                      Case{"isotropic_conservative_b_1", "isotropic", {}, 1, 1, 0.341329, 0.658671, 5e-7},
-                      Case{"isotropic_albedo_09_b_1", "isotropic", {}, 0.9f, 1, 0.267410, 0.591625, 5e-7},
-                      Case{"HG_085_conservative_b_16", "henyey_greenstein", {0.85f}, 1, 16, 0.55721, 0.44279, 5e-6},
-                      Case{"HG_085_albedo_0999_b_8", "henyey_greenstein", {0.85f}, 0.999f, 8, 0.352121, 0.632507, 5e-7},
-                      Case{"Rayleigh_conservative_b_1", "rayleigh", {}, 1, 1, 0.340471, 0.659529, 5e-7},
-                      Case{"half_space_05", "isotropic", {}, 0.5f, 40, 0.115226, -1, 5e-7},
-                      Case{"half_space_09", "isotropic", {}, 0.9f, 40, 0.414947, -1, 5e-7},
-                      Case{"half_space_099", "isotropic", {}, 0.99f, 100, 0.752721, -1, 5e-7},
-                      Case{"half_space_0999", "isotropic", {}, 0.999f, 300, 0.912845, -1, 5e-7},
-                      Case{"half_space_HG_075_099", "henyey_greenstein", {0.75f}, 0.99f, 200, 0.559170, -1, 5e-7},
-                      Case{"half_space_HG_085_0999", "henyey_greenstein", {0.85f}, 0.999f, 1000, 0.78730, -1, 5e-6});
+const auto cases = ::testing::Values(
+    Case{"HG_075_albedo_09_b_2", "henyey_greenstein", {0.75f}, 0.9f, 2, 0.097395, 0.660958, 5e-7, 2e-3},
+    Case{"isotropic_conservative_b_1", "isotropic", {}, 1, 1, 0.341329, 0.658671, 5e-7},
+    Case{"isotropic_albedo_09_b_1", "isotropic", {}, 0.9f, 1, 0.267410, 0.591625, 5e-7},
+    Case{"HG_085_conservative_b_16", "henyey_greenstein", {0.85f}, 1, 16, 0.55721, 0.44279, 5e-6, 2e-3},
+    Case{"HG_085_albedo_0999_b_8", "henyey_greenstein", {0.85f}, 0.999f, 8, 0.352121, 0.632507, 5e-7, 2e-3},
+    Case{"Rayleigh_conservative_b_1", "rayleigh", {}, 1, 1, 0.340471, 0.659529, 5e-7},
+    Case{"half_space_05", "isotropic", {}, 0.5f, 40, 0.115226, -1, 5e-7},
+    Case{"half_space_09", "isotropic", {}, 0.9f, 40, 0.414947, -1, 5e-7},
+    Case{"half_space_099", "isotropic", {}, 0.99f, 100, 0.752721, -1, 5e-7},
+    Case{"half_space_0999", "isotropic", {}, 0.999f, 300, 0.912845, -1, 5e-7, 2e-3},
+    Case{"half_space_HG_075_099", "henyey_greenstein", {0.75f}, 0.99f, 200, 0.559170, -1, 5e-7, 2e-3},
+    Case{"half_space_HG_085_0999", "henyey_greenstein", {0.85f}, 0.999f, 1000, 0.78730, -1, 5e-6, 4e-3});
 INSTANTIATE_TEST_SUITE_P(Cases, VolpathSlabs, cases, case_name);
 INSTANTIATE_TEST_SUITE_P(NightlyCases, NightlyVolpathSlabs, cases, case_name);
 
@@ -117,9 +118,9 @@ void expect_h_function(const char* integrator, float albedo, float thickness, do
 }
 
 TEST_P(PathTracers, HFunction) {
-  expect_h_function(GetParam(), 0.9f, 40, 1.850099, 3e-3);
-  expect_h_function(GetParam(), 0.99f, 100, 2.472793, 3e-3);
-  expect_h_function(GetParam(), 1, 30, 2.907811, 3e-3);
+  expect_h_function(GetParam(), 0.9f, 40, 1.850099, 5e-3);
+  expect_h_function(GetParam(), 0.99f, 100, 2.472793, 5e-3);
+  expect_h_function(GetParam(), 1, 30, 2.907811, 5e-3);
 }
 TEST_P(NightlyPathTracers, HFunction) {
   expect_h_function(GetParam(), 0.9f, 40, 1.850099, 2e-4);
@@ -162,14 +163,15 @@ void expect_lambert_lit(const char* integrator, const Case& c, int samples, doub
 const Case thin_lambert{"thin", "isotropic", {}, 1, 1, 0.446594, 0.553406, 5e-7};
 const Case thick_lambert{"thick", "henyey_greenstein", {0.85f}, 1, 32, -1, 0.21409, 5e-6};
 
-TEST_P(PathTracers, LambertianLight) { expect_lambert_lit(GetParam(), thin_lambert, 160000, 2e-3); }
+TEST_P(PathTracers, LambertianLight) { expect_lambert_lit(GetParam(), thin_lambert, 60000, 3e-3); }
 TEST_P(NightlyPathTracers, LambertianLight) {
   expect_lambert_lit(GetParam(), thin_lambert, 20000000, 2e-4);
   expect_lambert_lit(GetParam(), thick_lambert, 20000000, 2e-4);
 }
 
 // The fluence of an isotropic point source in an infinite medium, integrated over a shell: by reciprocity what its
-// place sees, in any direction, of a shell that emits 1 per unit of length.
+// place sees, in any direction, of a shell that emits 1 per unit of length. A hundred mean free paths are as good as
+// infinitely many.
 void expect_shell_fluence(const char* integrator, float albedo, double from, double to, double expected,
                           double relative_error) {
   SceneDescription s = needle_scene();
@@ -177,8 +179,7 @@ void expect_shell_fluence(const char* integrator, float albedo, double from, dou
   s.integrator.max_depth = 100000;
   s.media = {homogeneous_medium("dark", 1 - albedo, albedo), homogeneous_medium("shell", 1 - albedo, albedo)};
   s.media[1].emission = constant_spectrum(1 / (1 - albedo));
-  s.camera.medium = from > 0 ? "dark" : "shell";
-  s.shapes = {sphere_shape({0, 0, 0}, to, "shell", "dark")};
+  s.shapes = {sphere_shape({0, 0, 0}, 100, "dark"), sphere_shape({0, 0, 0}, to, "shell", "dark")};
   if (from > 0) s.shapes.push_back(sphere_shape({0, 0, 0}, from, "dark", "shell"));
   expect_estimate(s, expected, 5e-7, relative_error);
 }
@@ -234,6 +235,35 @@ TEST(VolpathSingleScattering, OfAFarLampAhead) {
   s.lights = {point_light({0.3, 0, 1000}, 1e6f)};
   // 0.01 (1/(4 pi)) exp(-0.01) (1000 / 998.5)^2
   expect_estimate(s, 0.01 / (4 * pi) * std::exp(-0.01) * 1e6 / (999.0 * 998.0), 4e-9, 1e-4);
+}
+
+ShapeDescription lamp(Vector3 centre, double radius, float reflectance) {
+  ShapeDescription s = sphere_shape(centre, radius, "");
+  s.material = DiffuseMaterial{constant_spectrum(reflectance)};
+  s.light = AreaLight{constant_spectrum(10), false, 0};
+  return s;
+}
+
+// Catches shadow rays from a sphere to itself: it is convex, and lights no point of its own.
+TEST_P(PathTracers, ASphereDoesNotLightItself) {
+  SceneDescription s = needle_scene({0.1, 0.2, -4});
+  s.integrator.name = GetParam();
+  s.film.width = s.film.height = 32;
+  s.camera.fov = 5;
+  for (const double radius : {0.4, 1.7}) {
+    s.shapes = {lamp({0.1, 0.2, 0}, radius, 0.5f)};
+    for (const float v : render_film(s, 4, 2).image().pixels) ASSERT_NEAR(v, 10, 1e-4);
+  }
+}
+
+// Catches shadow rays that end on the lamp itself where the camera is further from the floor than the lamp: the floor
+// right under a sphere of radius r at height h has the irradiance pi L (r / h)^2, seen from anywhere.
+TEST_P(PathTracers, ALampOverAFloorSeenAtASlant) {
+  SceneDescription s = needle_scene();
+  s.integrator.name = GetParam();
+  s.camera.world_from_camera = inverse(look_at({0.1, 0.2, -4}, {1.2, -1, -0.5}, {0, 1, 0}));
+  s.shapes = {square_facing_y({0, -1, 0}, 6, 0.6f), lamp({1.2, 1, -0.5}, 0.3, 0.3f)};
+  expect_estimate(s, 0.6 * 10 * 0.09 / 4, 1e-6, 1e-3);
 }
 
 // The fraction of the emission of an absorbing sphere that escapes (see transport_test.cpp), at one place of its disk.

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "volume/grid_views.h"
+#include "volume/resample.h"
 
 namespace brume {
 namespace {
@@ -78,6 +80,26 @@ TEST(ProceduralCloud, AnySizeWorksWithinItsLimits) {
   for (const int size : {1, 2, 7, 9}) EXPECT_EQ(procedural_cloud({size, 0, Storage::u8}, 2).bricks.voxels[0], size);
   EXPECT_THROW(procedural_cloud({0, 0, Storage::u8}, 1), std::invalid_argument);
   EXPECT_THROW(procedural_cloud({max_cloud_size + 1, 0, Storage::u8}, 1), std::invalid_argument);
+}
+
+TEST(Resample, KeepsValuesAndPlace) {
+  const VolumeGrid cloud = procedural_cloud({40, 3, Storage::f32}, 2);
+  const VolumeGrid same = resample(cloud, cloud.bricks.voxels, Storage::f32, 2);
+  EXPECT_EQ(same.bricks.table, cloud.bricks.table);
+  EXPECT_EQ(same.bricks.words, cloud.bricks.words);
+  const VolumeGrid twice = resample(cloud, {80, 48, 80}, Storage::f32, 2);
+  EXPECT_NEAR(twice.bricks.mean_value, cloud.bricks.mean_value, 1e-6);
+  const Vector3 there = twice.medium_from_index.point({40, 24, 40}), here = cloud.medium_from_index.point({20, 12, 20});
+  EXPECT_NEAR(length(there - here), 0, 1e-12);
+}
+
+TEST(ScatteredPuffs, OccupyATenthOfTheBricks) {
+  const VolumeGrid puffs = scattered_puffs(512, Storage::u8);
+  const auto occupied = std::ranges::count_if(puffs.bricks.table, [](std::uint32_t word) { return word != 0; });
+  EXPECT_NEAR(static_cast<double>(occupied) / (64 * 64 * 64), 0.1, 0.02);
+  EXPECT_GT(puffs.bricks.max_value, 0.9f);
+  EXPECT_EQ(puffs.bricks.min_value, 0);
+  for (const int size : {8, 9, 100}) EXPECT_GT(scattered_puffs(size, Storage::u16).bricks.max_value, 0) << size;
 }
 
 }  // namespace
