@@ -49,12 +49,15 @@ class ActiveMedia {
 
 MediaAlongRay::MediaAlongRay(const CompiledScene& scene, const Intersector& intersector)
     : scene_(scene), intersector_(intersector) {
-  if (scene.camera_medium == no_medium) return;
   const Vector3 eye = scene.camera.world_from_camera.point({});
   const vec3 p(static_cast<float>(eye.x), static_cast<float>(eye.y), static_cast<float>(eye.z));
-  bool accounted = false;
-  for (const auto& [medium, count] : counts_at(p))
+  bool accounted = scene.camera_medium == no_medium;
+  std::vector<std::pair<int, int>> missing;
+  for (const auto& [medium, count] : counts_at(p)) {
     accounted = accounted || (medium == scene.camera_medium && count > 0);
+    if (count < 0) missing.emplace_back(medium, -count);
+  }
+  surrounding_ = std::move(missing);
   for (const CompiledVolume& volume : scene.volumes) {
     const Vector3 in_box = volume.box_from_world.point(eye);
     bool inside = volume.medium == scene.camera_medium;
@@ -65,7 +68,7 @@ MediaAlongRay::MediaAlongRay(const CompiledScene& scene, const Intersector& inte
     }
     accounted = accounted || inside;
   }
-  if (!accounted) surrounding_medium_ = scene.camera_medium;
+  if (!accounted) surrounding_.emplace_back(scene.camera_medium, 1);
 }
 
 std::vector<std::pair<int, int>> MediaAlongRay::counts_at(vec3 p) const {
@@ -81,7 +84,7 @@ std::vector<std::pair<int, int>> MediaAlongRay::counts_at(vec3 p) const {
     else
       at->second += change;
   };
-  add(surrounding_medium_, 1);
+  for (const auto& [medium, count] : surrounding_) add(medium, count);
   for (const Crossing& c : crossings) {
     const auto shape = static_cast<std::size_t>(c.shape);
     const CompiledBoundary& b = scene_.boundaries[static_cast<std::size_t>(scene_.shapes[shape].boundary)];
@@ -128,8 +131,8 @@ std::optional<vec3> MediaAlongRay::follow(const Ray& ray, int ray_index, std::sp
     return scene_.boundaries[static_cast<std::size_t>(scene_.shapes[shape].boundary)];
   };
 
-  // At the origin: the surrounding medium less all changes ahead.
-  active.change(surrounding_medium_, 1, 0, nothing);
+  // At the origin: the surrounding media less all changes ahead.
+  for (const auto& [medium, count] : surrounding_) active.change(medium, count, 0, nothing);
   for (const Crossing& c : crossings)
     if (!active.change(boundary(c).inside, c.inwards ? -1 : 1, 0, nothing) ||
         !active.change(boundary(c).outside, c.inwards ? 1 : -1, 0, nothing))

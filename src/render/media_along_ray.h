@@ -23,15 +23,16 @@ struct MediumSpan {
 
 class MediaAlongRay {
  public:
-  // Finds, once, which medium surrounds all shapes: the one that the camera records, where the boundaries around the
-  // camera do not account for it.
+  // Finds, once, which media surround all shapes: the one that the camera records, where the boundaries around the
+  // camera do not account for it; and what lies outside of shapes that the camera is in, where nothing else puts it
+  // there.
   MediaAlongRay(const CompiledScene& scene, const Intersector& intersector);
 
   // The media along each ray from its origin to its t_max, in no particular order within a ray. At most
   // max_active_media at a time are followed; where there are more, returns such a place.
   //
   // How often each medium is there at the ray's origin follows from the crossings ahead: far away only the surrounding
-  // medium is left. So nothing is carried from ray to ray that rounding at a boundary could get wrong.
+  // media are left. So nothing is carried from ray to ray that rounding at a boundary could get wrong.
   std::optional<kernel::vec3> find(std::span<const Ray> rays, std::vector<MediumSpan>& spans,
                                    std::vector<Crossing>& scratch) const;
 
@@ -39,8 +40,8 @@ class MediaAlongRay {
   std::optional<kernel::vec3> find_bounded(std::span<const Ray> rays, std::vector<MediumSpan>& spans,
                                            std::vector<Crossing>& scratch) const;
 
-  // Whether a medium surrounds all shapes.
-  bool has_surrounding_medium() const { return surrounding_medium_ != no_medium; }
+  // Whether any medium surrounds all shapes.
+  bool has_surrounding_medium() const { return !surrounding_.empty(); }
 
   // The media at a point and how many times over each is there, volumes in boxes apart. For messages and for the
   // camera.
@@ -55,7 +56,7 @@ class MediaAlongRay {
 
   const CompiledScene& scene_;
   const Intersector& intersector_;
-  std::int32_t surrounding_medium_ = no_medium;
+  std::vector<std::pair<int, int>> surrounding_;  // media and how many times over each is there
 };
 
 }  // namespace brume

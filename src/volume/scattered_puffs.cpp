@@ -8,8 +8,8 @@
 namespace brume {
 namespace {
 
-constexpr int largest_cell = 16;          // bricks along its edge
-constexpr float largest_radius = 0.425f;  // of the edge of a cell
+constexpr int largest_cell = 16;         // bricks along its edge
+constexpr float largest_radius = 0.39f;  // of the edge of a cell
 
 // A puff, in voxels.
 struct Puff {

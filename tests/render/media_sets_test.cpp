@@ -83,6 +83,16 @@ TEST(MediaSets, AMediumThatOnlyTheCameraRecordsIsEverywhere) {
   EXPECT_NEAR(radiance(s), 0.5 / 3.14159265 * std::exp(-11 * 0.3), 2e-5 * 0.01);
 }
 
+TEST(MediaSets, WhatLiesOutsideOfTheShapeThatTheCameraIsInIsEverywhereElse) {
+  const auto thin = homogeneous_medium("thin", 0.1f, 0), fog = homogeneous_medium("fog", 0.3f, 0);
+  // The camera stands at z = -10: 2 units of the thin medium, then 10 of fog to a floor.
+  SceneDescription s = view({thin, fog}, {sphere_shape({0, 0, -10}, 2, "thin", "fog")});
+  s.shapes.push_back(square_facing_z({0, 0, 2}, 1, 0.5f));
+  s.camera.medium = "thin";
+  s.lights = {point_light({0.05, 0.02, 1}, 1)};
+  EXPECT_NEAR(radiance(s), 0.5 / 3.14159265 * std::exp(-2 * 0.1 - 11 * 0.3), 2e-5 * 0.05);
+}
+
 TEST(MediaSets, FreeVolumesAddToAll) {
   const auto fog = homogeneous_medium("fog", 0.3f, 0);
   auto grid = grid_medium("grid", {-1, -1, 1}, {1, 1, 3}, {2, 2, 2}, std::vector<float>(8, 1), 0.2f, 0);
