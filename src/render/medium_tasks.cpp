@@ -29,7 +29,7 @@ std::uint32_t clip_lanes(const BoxFrame& box, const RayColumns& rays, std::uint3
     const B crosses = both(span.t_length > 0.0f, index < I(static_cast<std::int32_t>(count)));
     if (!any(crosses)) continue;
     const Packing packing = packing_of(crosses);
-    const U key = hash_word(load_lanes(rays.key + i) + U(ordinal * 0x9e3779b9u));
+    const U key = hash_word((load_lanes(rays.key + i) ^ U(0x7f4a7c15u)) + U(ordinal * 0x9e3779b9u));
     const U pixel = load_lanes(rays.pixel + i), sample = load_lanes(rays.sample + i);
     const F u = ordinal == 0 ? load_lanes(rays.distance_u + i) : random_uniform(key, pixel, sample, U(0xffffffffu));
     append3(span.entry, packing, out.entry, at);
@@ -142,7 +142,7 @@ void MediumTasks::add_bounded_media(const RayColumns& rays, std::uint32_t count)
       }
       c.length[at] = span.t_end - span.t_begin;
       c.t_begin[at] = span.t_begin;
-      c.key[at] = kernel::hash_word(rays.key[ray] + ordinal * 0x9e3779b9u);
+      c.key[at] = kernel::hash_word((rays.key[ray] ^ 0x7f4a7c15u) + ordinal * 0x9e3779b9u);
       c.pixel[at] = rays.pixel[ray];
       c.sample[at] = rays.sample[ray];
       const float u = ordinal == 0 ? rays.distance_u[ray]

@@ -61,6 +61,7 @@ std::uint32_t scatter(const ScatterJob& job, const PathColumns& paths, std::uint
                       const ShadowColumns& shadows, std::uint32_t& shadow_count, LightRequest* requests) {
   const vec4 phase(job.phase_numbers[0], job.phase_numbers[1], job.phase_numbers[2], job.phase_numbers[3]);
   const F max_depth = static_cast<float>(job.max_depth);
+  const std::uint32_t hashed_seed = hash_seed(job.seed);
   std::uint32_t request_count = 0;
   std::uint32_t at = shadow_count;
   for (std::uint32_t i = 0; i < count; i += static_cast<std::uint32_t>(lane_count())) {
@@ -176,7 +177,7 @@ std::uint32_t scatter(const ScatterJob& job, const PathColumns& paths, std::uint
     put(Phase::eval(mu, phase) * F(job.density_scale), here, paths.direction_density + i);
     put(select(survives, F(1e30f), F(0.0f)), here, paths.ray.t_max + i);
     put(depth + U(1u), here, paths.depth + i);
-    const U key = hash_word((depth + U(1u)) * U(0x9e3779b9u) ^ U(job.seed));
+    const U key = hash_word((depth + U(1u)) * U(0x9e3779b9u) ^ U(hashed_seed));
     put(key, here, paths.ray.key + i);
     F distance_u = random_uniform(key, load_lanes(paths.ray.pixel + i), load_lanes(paths.ray.sample + i), U(3u));
     for (int e = 1; e < sobol_events; ++e)
@@ -215,7 +216,7 @@ std::uint32_t scatter_paths(const ScatterJob& job, const PathColumns& paths, std
 }
 
 std::uint32_t event_key(std::uint32_t seed, std::uint32_t depth) {
-  return kernel::hash_word((depth * 0x9e3779b9u) ^ seed);
+  return kernel::hash_word((depth * 0x9e3779b9u) ^ hash_seed(seed));
 }
 
 }  // namespace brume

@@ -32,9 +32,10 @@ double mean_z(const Image& a, const Image& b, std::size_t channel) {
   return variance > 0 ? difference / std::sqrt(variance) : 0;
 }
 
+// Seed 0 is what everyone renders with, and where hashes are most likely to coincide.
 void expect_agreement(const AgreementScene& s, int samples) {
   const Image reference = picture(s.scene, "reference", 1, samples);
-  const Image volpath = picture(s.scene, "volpath", 2, 4 * samples);
+  const Image volpath = picture(s.scene, "volpath", 0, 4 * samples);
   const ImageComparison c = compare_images(reference, volpath);
   for (std::size_t channel = 0; channel < 3; ++channel) {
     const ChannelComparison& d = c.channels[channel];
