@@ -1,9 +1,9 @@
 // The walk through a grid of majorants: upper bounds of the density, one for each cube of `edge` voxels. DDA as in
 // dda.inl, but with t_next accumulated, which is cheaper and off by at most 1e-6 of the walk's length: the bounds hold
 // one voxel beyond their cells, so that a t near a plane may fall on either side of it.
-// Cell (i, j, k) of the walk is the cube [i, i + 1] x ... of index coordinates divided by the edge. A border of one cell
-// on every side takes what lies up to one cell outside the array of voxels. Callers clip their rays to the grid's bounds
-// and stop there.
+// Cell (i, j, k) of the walk is the cube [i, i + 1] x ... of index coordinates divided by the edge. A border of one
+// cell on every side takes what lies up to one cell outside the array of voxels. Callers clip their rays to the grid's
+// bounds and stop there.
 // Source: L. Szirmay-Kalos et al., "Free Path Sampling in High Resolution Inhomogeneous Participating Media", CGF 30(1),
 // 2011.
 
@@ -39,8 +39,7 @@ KERNEL MajorantWalk majorant_start(MajorantGrid g, vec3 origin_index, vec3 direc
   I y = floor_to_int(o.y);
   I z = floor_to_int(o.z);
   MajorantWalk w;
-  w.t_cell =
-      vec3(majorant_plane_distance(d.x), majorant_plane_distance(d.y), majorant_plane_distance(d.z));
+  w.t_cell = vec3(majorant_plane_distance(d.x), majorant_plane_distance(d.y), majorant_plane_distance(d.z));
   w.t_next = vec3(majorant_first_plane(o.x - to_float(x), d.x, w.t_cell.x),
                   majorant_first_plane(o.y - to_float(y), d.y, w.t_cell.y),
                   majorant_first_plane(o.z - to_float(z), d.z, w.t_cell.z));
@@ -70,8 +69,8 @@ KERNEL void majorant_step(INOUT(MajorantWalk) w) {
 // The bound of the density in cell `cell`.
 KERNEL F majorant_at(MajorantGrid g, I cell) { return bits_float(load_u32(g.cells, cell)); }
 
-// One value in place of the trilinear interpolant's eight: a neighbour of p_index chosen with the interpolant's weights,
-// whose expectation is the interpolant. `a` and `b` are words of random bits: 16 for each axis.
+// One value in place of the trilinear interpolant's eight: a neighbour of p_index chosen with the interpolant's
+// weights, whose expectation is the interpolant. `a` and `b` are words of random bits: 16 for each axis.
 // Source: M. Pharr, B. Wronski, M. Salvi and M. Fajardo, "Filtering After Shading With Stochastic Texture Filtering",
 // I3D 2024.
 KERNEL F grid_stochastic(BrickGrid g, vec3 p_index, U a, U b) {

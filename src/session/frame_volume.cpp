@@ -159,8 +159,8 @@ FramedVolume frame_volume(const std::string& path, const std::string& grid_name)
   scene.lights = sun_and_sky(view);
 
   scene.sampler.pixel_samples = 64;
-  // For those who choose the classic integrator. Half a voxel, as is usual, but at most 128 steps along the diagonal: shadow rays take steps of the same length, so
-  // the time grows with the square of their number.
+  // For those who choose the classic integrator. Half a voxel, as is usual, but at most 128 steps along the diagonal:
+  // shadow rays take steps of the same length, so the time grows with the square of their number.
   const double diagonal = length(whole.hi - whole.lo);
   scene.integrator.max_depth = 100;
   scene.integrator.placement = Placement::middle_random;
