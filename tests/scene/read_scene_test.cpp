@@ -80,7 +80,7 @@ TEST(ReadScene, SmokeFromAFileUnderSunAndSky) {
   EXPECT_EQ(kind<InfiniteLight>(s.lights[0]).radiance, rgb(0.4f, 0.55f, 0.8f));
   EXPECT_EQ(kind<DistantLight>(s.lights[1]).radiance, rgb(3, 2.8f, 2.5f));
   EXPECT_NEAR(kind<DistantLight>(s.lights[1]).direction_to_light.y, 0.7 / std::sqrt(1.01), 1e-15);
-  EXPECT_EQ(s.integrator.name, "classic");
+  EXPECT_EQ(s.integrator.name, "volpath");
   EXPECT_EQ(s.integrator.max_depth, 5);
 }
 
