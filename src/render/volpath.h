@@ -37,8 +37,8 @@ class VolpathIntegrator {
   VolpathIntegrator(const CompiledScene& scene, const Intersector& intersector, const MediaAlongRay& media,
                     const Filter& filter);
 
-  // Adds samples [first, last) of the film's pixels in `tile` to the film.
-  void render_tile(const PixelBox& tile, int first, int last, Film& film);
+  // Adds samples [first, last) of these pixels of the film to it.
+  void render_tile(const PixelBox& pixels, int first, int last, Film& film);
 
   std::optional<kernel::vec3> too_many_media() const {
     return media_.too_many_media() ? media_.too_many_media() : shadow_media_.too_many_media();
