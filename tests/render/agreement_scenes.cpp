@@ -118,7 +118,7 @@ void add_media(std::vector<AgreementScene>& all) {
       {"grid_cut_by_a_turned_box",
        view_of({smoke("smoke", 0.3f, 4)}, {turned(box_shape({-0.7, -2, -0.8}, {0.3, 0.6, 3}, "smoke"), 40)})});
   // Where light comes from one collision alone, what decides about collisions must tell nothing about the light.
-  SceneDescription sun = view_of({smoke("smoke", 0.3f, 4)}, {free_volume("smoke")});
+  SceneDescription sun = view_of({smoke("smoke", 5, 1.5f)}, {free_volume("smoke")});
   sun.integrator.max_depth = 1;
   sun.lights = {distant_light({1, 2, -1}, 2)};
   all.push_back({"grid_under_a_sun_alone", sun});
