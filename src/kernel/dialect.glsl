@@ -1,6 +1,6 @@
 // The kernel dialect in GLSL: the names that the kernel files use, in terms of GLSL's own.
 // The twins of this file are scalar.h (scalar C++) and lanes/lanes-inl.h (SIMD C++).
-// A shader includes this, then declares `uint words[]` and load_u32, then includes kernel/all.inl.
+// A shader includes this, then declares `uint words[]`, load_u32 and load_u32_pair, then includes kernel/all.inl.
 #define F float
 #define I int
 #define U uint

@@ -15,6 +15,10 @@ layout(push_constant) uniform Arguments {
 #include "kernel/dialect.glsl"
 uint load_u32(uint array, uint index) { return words[array + index]; }
 uint load_u32(uint array, int index) { return words[array + uint(index)]; }
+void load_u32_pair(uint array, uint pair, out uint first, out uint second) {
+  first = words[array + 2u * pair];
+  second = words[array + 2u * pair + 1u];
+}
 #include "kernel/all.inl"
 #include "kernel/phase_dispatch.glsl"
 
@@ -70,7 +74,7 @@ void main() {
   MajorantGrid majorants =
       MajorantGrid(arguments.majorants, arguments.majorant_row, arguments.majorant_layer, 0.25);
   MajorantWalk cells = majorant_start(majorants, origin * 8.0, direction);
-  majorant_step(cells);
+  majorant_step(cells, true);
   results[out_index + 21] = majorant_cell_exit(cells);
   results[out_index + 22] = majorant_at(majorants, cells.cell);
   RandomWords r = random_words(words[0], id, 0u, 12u);

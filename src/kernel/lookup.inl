@@ -2,11 +2,13 @@
 // Index coordinates: voxel (i, j, k) is the cube [i, i+1] x ..., its value sits at the centre i + 1/2. Outside the
 // array the value is 0. Bricks are 8^3 voxels, x fastest; the table of bricks has a border of one empty brick on every
 // side, so that indices in [-8, n + 7] need no bounds test; callers clip their rays to the grid's bounds, which lie
-// within. A brick is two words, offset and scale, then its 512 values, packed: value = offset + scale * q for 8- and
-// 16-bit q (error at most scale / 2, that is 1/510 and 1/131070 of the brick's range), or the float itself.
+// within. A brick is its 512 values, packed: value = offset + scale * q for 8- and 16-bit q (error at most scale / 2), or
+// the float itself. Offset and scale are floats of 16 bits (the upper halves of theirs), beside the brick's place in the
+// table: one gather of 64 bits fetches all of a brick that a look-up needs to know.
 
 struct BrickGrid {
-  Words table;  // first word of each brick in `bricks`; the brick at 0 is the shared empty one
+  Words table;  // two words for each brick: its first word in `bricks`, and offset (upper half) with scale (lower half);
+                // the brick at 0 is the shared empty one
   Words bricks;
   uint table_x;   // bricks along x, border included: the table's row
   uint table_xy;  // bricks in a layer, border included
@@ -18,31 +20,50 @@ struct Cell {
   F v000, v100, v010, v110, v001, v101, v011, v111;
 };
 
-// The value of voxel (x, y, z).
-KERNEL F grid_voxel(BrickGrid g, I x, I y, I z) {
+// Where a voxel's value is, and how it is read there.
+struct VoxelPlace {
+  U word;   // its index in `bricks`
+  U shift;  // of the value's bits in the word
+  U steps;  // the brick's offset and scale
+};
+
+KERNEL VoxelPlace grid_place(BrickGrid g, I x, I y, I z) {
   U bx = as_uint(x + 8) >> 3;
   U by = as_uint(y + 8) >> 3;
   U bz = as_uint(z + 8) >> 3;
-  U brick = load_u32(g.table, bz * U(g.table_xy) + by * U(g.table_x) + bx);
   U voxel = as_uint((x & 7) | ((y & 7) << 3) | ((z & 7) << 6));
-  if (g.bits == 32u) return bits_float(load_u32(g.bricks, brick + 2u + voxel));
-  F value_offset = bits_float(load_u32(g.bricks, brick));
-  F value_scale = bits_float(load_u32(g.bricks, brick + 1u));
-  U q;
-  if (g.bits == 16u) {
-    U word = load_u32(g.bricks, brick + 2u + (voxel >> 1));
-    q = shift_right_by(word, (voxel & 1u) << 4) & 0xffffu;
+  VoxelPlace place;
+  load_u32_pair(g.table, bz * U(g.table_xy) + by * U(g.table_x) + bx, place.word, place.steps);
+  if (g.bits == 32u) {
+    place.word = place.word + voxel;
+    place.shift = U(0u);
+  } else if (g.bits == 16u) {
+    place.word = place.word + (voxel >> 1);
+    place.shift = (voxel & 1u) << 4;
   } else {
-    U word = load_u32(g.bricks, brick + 2u + (voxel >> 2));
-    q = shift_right_by(word, (voxel & 3u) << 3) & 0xffu;
+    place.word = place.word + (voxel >> 2);
+    place.shift = (voxel & 3u) << 3;
   }
-  return fma(to_float(as_int(q)), value_scale, value_offset);
+  return place;
+}
+
+KERNEL F grid_value(BrickGrid g, VoxelPlace place) {
+  U word = load_u32(g.bricks, place.word);
+  if (g.bits == 32u) return bits_float(word);
+  U q = shift_right_by(word, place.shift) & U(g.bits == 16u ? 0xffffu : 0xffu);
+  return fma(to_float(as_int(q)), bits_float(place.steps << 16), bits_float(place.steps & 0xffff0000u));
+}
+
+// The value of voxel (x, y, z).
+KERNEL F grid_voxel(BrickGrid g, I x, I y, I z) { return grid_value(g, grid_place(g, x, y, z)); }
+
+// The voxel that holds p_index.
+KERNEL VoxelPlace grid_nearest_place(BrickGrid g, vec3 p_index) {
+  return grid_place(g, floor_to_int(p_index.x), floor_to_int(p_index.y), floor_to_int(p_index.z));
 }
 
 // The value of the voxel that holds p_index.
-KERNEL F grid_nearest(BrickGrid g, vec3 p_index) {
-  return grid_voxel(g, floor_to_int(p_index.x), floor_to_int(p_index.y), floor_to_int(p_index.z));
-}
+KERNEL F grid_nearest(BrickGrid g, vec3 p_index) { return grid_value(g, grid_nearest_place(g, p_index)); }
 
 // The corners of dual cell (x, y, z), which spans the centres of voxels x and x + 1, and so on.
 KERNEL Cell grid_cell(BrickGrid g, I x, I y, I z) {

@@ -55,12 +55,12 @@ KERNEL MajorantWalk majorant_start(MajorantGrid g, vec3 origin_index, vec3 direc
 // Where the ray leaves the current cell.
 KERNEL F majorant_cell_exit(MajorantWalk w) { return min(w.t_next.x, min(w.t_next.y, w.t_next.z)); }
 
-// Moves to the next cell, through the nearest plane (x before y before z where they are equally near).
-KERNEL void majorant_step(INOUT(MajorantWalk) w) {
-  B x = both(w.t_next.x <= w.t_next.y, w.t_next.x <= w.t_next.z);
-  B y = both(negate(x), w.t_next.y <= w.t_next.z);
-  B z = negate(either(x, y));
-  w.cell = w.cell + select(x, w.step_x, select(y, w.step_y, w.step_z));
+// Moves to the next cell where `moves`, through the nearest plane (x before y before z where they are equally near).
+KERNEL void majorant_step(INOUT(MajorantWalk) w, B moves) {
+  B x = both(moves, both(w.t_next.x <= w.t_next.y, w.t_next.x <= w.t_next.z));
+  B y = both(both(moves, negate(x)), w.t_next.y <= w.t_next.z);
+  B z = both(moves, negate(either(x, y)));
+  w.cell = w.cell + select(x, w.step_x, select(y, w.step_y, select(z, w.step_z, I(0))));
   w.t_next.x = w.t_next.x + select(x, w.t_cell.x, F(0.0f));
   w.t_next.y = w.t_next.y + select(y, w.t_cell.y, F(0.0f));
   w.t_next.z = w.t_next.z + select(z, w.t_cell.z, F(0.0f));
@@ -69,14 +69,18 @@ KERNEL void majorant_step(INOUT(MajorantWalk) w) {
 // The bound of the density in cell `cell`.
 KERNEL F majorant_at(MajorantGrid g, I cell) { return bits_float(load_u32(g.cells, cell)); }
 
-// One value in place of the trilinear interpolant's eight: a neighbour of p_index chosen with the interpolant's
-// weights, whose expectation is the interpolant. `a` and `b` are words of random bits: 16 for each axis.
+// One voxel in place of the trilinear interpolant's eight: a neighbour of p_index chosen with the interpolant's
+// weights, so that the expectation of its value is the interpolant. `a` and `b` are words of random bits: 16 for each axis.
 // Source: M. Pharr, B. Wronski, M. Salvi and M. Fajardo, "Filtering After Shading With Stochastic Texture Filtering",
 // I3D 2024.
-KERNEL F grid_stochastic(BrickGrid g, vec3 p_index, U a, U b) {
+KERNEL VoxelPlace grid_stochastic_place(BrickGrid g, vec3 p_index, U a, U b) {
   F ux = to_float(as_int(a & 0xffffu)) * 1.52587890625e-5f;
   F uy = to_float(as_int(a >> 16)) * 1.52587890625e-5f;
   F uz = to_float(as_int(b & 0xffffu)) * 1.52587890625e-5f;
-  return grid_voxel(g, floor_to_int(p_index.x - 0.5f + ux), floor_to_int(p_index.y - 0.5f + uy),
+  return grid_place(g, floor_to_int(p_index.x - 0.5f + ux), floor_to_int(p_index.y - 0.5f + uy),
                     floor_to_int(p_index.z - 0.5f + uz));
+}
+
+KERNEL F grid_stochastic(BrickGrid g, vec3 p_index, U a, U b) {
+  return grid_value(g, grid_stochastic_place(g, p_index, a, b));
 }

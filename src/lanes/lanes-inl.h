@@ -122,6 +122,30 @@ HWY_INLINE F bits_float(U x) { return F(hn::BitCast(float_tag, x.v)); }
 HWY_INLINE U shift_right_by(U x, U bits) { return U(hn::Shr(x.v, bits.v)); }
 HWY_INLINE U load_u32(Words words, I index) { return U(hn::GatherIndex(uint_tag, words, index.v)); }
 HWY_INLINE U load_u32(Words words, U index) { return load_u32(words, as_int(index)); }
+// Words 2 pair and 2 pair + 1, by one gather of 64 bits where there is one: gathers cost by the number of their loads.
+HWY_INLINE void load_u32_pair(Words words, U pair, U& first, U& second) {
+#if HWY_TARGET <= HWY_AVX2
+  const hn::ScalableTag<std::uint64_t> wide;
+  const hn::RebindToSigned<decltype(wide)> wide_index;
+  const hn::Half<decltype(int_tag)> half;
+  const auto* pairs = reinterpret_cast<const std::uint64_t*>(words);
+  const auto index = hn::BitCast(int_tag, pair.v);
+  const auto lower = hn::GatherIndex(wide, pairs, hn::PromoteTo(wide_index, hn::LowerHalf(half, index)));
+  const auto upper = hn::GatherIndex(wide, pairs, hn::PromoteTo(wide_index, hn::UpperHalf(half, index)));
+  const auto low = hn::BitCast(uint_tag, lower), high = hn::BitCast(uint_tag, upper);
+  first = U(hn::ConcatEven(uint_tag, high, low));
+  second = U(hn::ConcatOdd(uint_tag, high, low));
+#else
+  first = load_u32(words, pair << 1);
+  second = load_u32(words, (pair << 1) + U(1u));
+#endif
+}
+// Asks for words that will be loaded, so that they are near by then.
+HWY_INLINE void prefetch(Words words, U index) {
+  HWY_ALIGN std::uint32_t at[HWY_MAX_BYTES / sizeof(std::uint32_t)];
+  hn::Store(index.v, uint_tag, at);
+  for (std::size_t lane = 0; lane < hn::Lanes(uint_tag); ++lane) __builtin_prefetch(words + at[lane]);
+}
 
 // Lanes to and from memory: lane i is at address[i]. Any address.
 HWY_INLINE F load_lanes(const float* address) { return F(hn::LoadU(float_tag, address)); }

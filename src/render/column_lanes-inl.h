@@ -62,6 +62,28 @@ HWY_INLINE Packing packing_of(B m) {
   return {hn::SetTableIndices(float_tag, lanes), count};
 }
 
+// Lane k of a mask takes number rank(k) of what follows: the opposite of packing. Lanes beyond the mask take any.
+struct Spreading {
+  decltype(hn::SetTableIndices(float_tag, static_cast<const std::int32_t*>(nullptr))) order;
+};
+HWY_INLINE Spreading spreading_of(std::uint32_t lanes) {
+  HWY_ALIGN std::int32_t rank[HWY_MAX_BYTES / sizeof(std::int32_t)] = {};
+  std::int32_t count = 0;
+  for (std::uint32_t left = lanes; left != 0; left &= left - 1) rank[__builtin_ctz(left)] = count++;
+  return {hn::SetTableIndices(float_tag, rank)};
+}
+
+// Loads values that lie one after the other, the first to the mask's first lane. Reads a whole vector.
+HWY_INLINE F spread(const float* from, const Spreading& spreading) {
+  return F(hn::TableLookupLanes(load_lanes(from).v, spreading.order));
+}
+HWY_INLINE U spread(const std::uint32_t* from, const Spreading& spreading) {
+  return float_bits(spread(reinterpret_cast<const float*>(from), spreading));
+}
+HWY_INLINE vec3 spread3(float* const* columns, std::uint32_t i, const Spreading& spreading) {
+  return vec3(spread(columns[0] + i, spreading), spread(columns[1] + i, spreading), spread(columns[2] + i, spreading));
+}
+
 // Stores the packed lanes one after the other. Writes a whole vector.
 HWY_INLINE void append(F x, const Packing& packing, float* to) {
   store_lanes(F(hn::TableLookupLanes(x.v, packing.order)), to);

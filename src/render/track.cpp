@@ -14,8 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace brume {
 namespace HWY_NAMESPACE {
 
-// Vectors in flight: their latencies overlap, and their states fit the first cache.
-constexpr int vector_count = 8;
+// Vectors in flight: enough for their latencies to overlap, no more, since they run half empty at the end of a call.
+constexpr int vector_count = 4;
 constexpr int steps_a_round = 2;
 // The least survival before roulette ends tracks that carry little transmittance.
 constexpr float roulette_below = 0.1f;
@@ -33,7 +33,9 @@ struct Tracks {
   F weight[3];  // transmittance; or the null collisions' weights
   F hero_sigma;
   F chosen;  // the t of a split track's collision; negative where there is none
-  B stepping, waiting, done;
+  VoxelPlace place;  // of the tentative collision, with what will decide about it
+  U decision, next_distance;
+  B stepping, waiting, located, done;
   HWY_ALIGN std::uint32_t task[HWY_MAX_BYTES / sizeof(std::uint32_t)];
 };
 
@@ -66,27 +68,37 @@ struct Stream {
     const B ends = both(moves, exit >= v.t_end);
     v.done = either(v.done, ends);
     v.stepping = both(moves, exit < v.t_end);
-    MajorantWalk next = v.walk;
-    majorant_step(next);
-    v.walk.cell = select(v.stepping, next.cell, v.walk.cell);
-    v.walk.t_next = select3(v.stepping, next.t_next, v.walk.t_next);
+    majorant_step(v.walk, v.stepping);
     v.majorant = select(v.stepping, majorant_at(majorants, v.walk.cell) * grid.sigma_majorant, v.majorant);
     counts.steps += static_cast<std::int64_t>(count_lanes(moves));
   }
 
-  // Looks up the density at tentative collisions and decides what they are.
-  HWY_INLINE void look_up(Tracks& v) {
+  // Finds where in memory the densities at tentative collisions are, and asks for them.
+  HWY_INLINE void locate(Tracks& v) {
     const B here = v.waiting;
     counts.look_ups += static_cast<std::int64_t>(count_lanes(here));
     v.t = select(here, min(v.t + v.optical_depth / v.majorant, v.t_end), v.t);
-    const vec3 p = v.origin + v.t * v.direction;
+    // Idle lanes look where memory is near, the border's corner, for their loads cost as much as the others'.
+    const vec3 nowhere(0.0f, 0.0f, 0.0f);
+    const vec3 p = select3(here, v.origin + v.t * v.direction, nowhere);
     const RandomWords r = random_words(v.key, v.pixel, v.sample, v.counter);
     v.counter = select(here, v.counter + U(1u), v.counter);
-    const F d = grid.linear ? grid_stochastic(density, p, r.x, r.y) : grid_nearest(density, p);
+    v.place = grid.linear ? grid_stochastic_place(density, p, r.x, r.y) : grid_nearest_place(density, p);
+    v.decision = r.z;
+    v.next_distance = r.w;
+    prefetch(density.bricks, v.place.word);
+    v.located = here;
+    v.waiting = no_lanes();
+  }
+
+  // Looks up the densities at tentative collisions and decides what these are.
+  HWY_INLINE void decide(Tracks& v) {
+    const B here = v.located;
+    const F d = grid_value(density, v.place);
     const B violates = both(here, d * grid.sigma_majorant > v.majorant * 1.00001f);
     if (any(violates)) counts.majorant_violations += static_cast<std::int64_t>(count_lanes(violates));
-    v.optical_depth = select(here, -log_natural(1.0f - uniform_from_bits(r.w)), v.optical_depth);
-    const F u = uniform_from_bits(r.z);
+    v.optical_depth = select(here, -log_natural(1.0f - uniform_from_bits(v.next_distance)), v.optical_depth);
+    const F u = uniform_from_bits(v.decision);
     B ends;
     if (is_ratio) {
       F largest = 0.0f;
@@ -114,7 +126,7 @@ struct Stream {
     }
     v.done = either(v.done, ends);
     v.stepping = either(v.stepping, both(here, negate(ends)));
-    v.waiting = no_lanes();
+    v.located = no_lanes();
   }
 
   // A tentative collision of which the share `real` is one: splits what is left of the path's weight. Of the parts that
@@ -139,6 +151,7 @@ struct Stream {
     if (is_split) store_lanes(v.weight[0], weight[0]);
     if (is_chromatic)
       for (int c = 0; c < 3; ++c) store_lanes(v.weight[c], weight[c]);
+    const std::uint32_t first = next_task;
     std::uint32_t started = 0;
     for (std::uint32_t left = lane_bits(v.done); left != 0; left &= left - 1) {
       const int lane = __builtin_ctz(left);
@@ -150,25 +163,26 @@ struct Stream {
       started |= 1u << lane;
     }
     v.done = no_lanes();
-    if (started != 0) start(v, started);
+    if (started != 0) start(v, started, first);
   }
 
-  HWY_INLINE void start(Tracks& v, std::uint32_t lanes) {
+  // Starts tasks `first` and those after it in `lanes`, in order. Reads columns up to a vector beyond the last task.
+  HWY_INLINE void start(Tracks& v, std::uint32_t lanes, std::uint32_t first) {
     const B m = lanes_of_bits(lanes);
-    const I task = load_lanes(reinterpret_cast<const std::int32_t*>(v.task));
-    v.origin = select3(m, gather3(tasks.entry, task), v.origin);
-    v.direction = select3(m, gather3(tasks.direction, task), v.direction);
+    const Spreading spreading = spreading_of(lanes);
+    v.origin = select3(m, spread3(tasks.entry, first, spreading), v.origin);
+    v.direction = select3(m, spread3(tasks.direction, first, spreading), v.direction);
     v.t = select(m, F(0.0f), v.t);
-    v.t_end = select(m, gather(tasks.length, task), v.t_end);
-    v.optical_depth = select(m, gather(tasks.optical_depth, task), v.optical_depth);
-    v.key = select(m, load_u32(tasks.key, task), v.key);
-    v.pixel = select(m, load_u32(tasks.pixel, task), v.pixel);
-    v.sample = select(m, load_u32(tasks.sample, task), v.sample);
+    v.t_end = select(m, spread(tasks.length + first, spreading), v.t_end);
+    v.optical_depth = select(m, spread(tasks.optical_depth + first, spreading), v.optical_depth);
+    v.key = select(m, spread(tasks.key + first, spreading), v.key);
+    v.pixel = select(m, spread(tasks.pixel + first, spreading), v.pixel);
+    v.sample = select(m, spread(tasks.sample + first, spreading), v.sample);
     v.counter = select(m, U(0u), v.counter);
     v.chosen = select(m, F(-1.0f), v.chosen);
     for (int c = 0; c < weight_count; ++c) v.weight[c] = select(m, F(1.0f), v.weight[c]);
     if (is_chromatic && tracking == Tracking::collision) {
-      const I hero = as_int(load_u32(tasks.hero, task));
+      const I hero = as_int(spread(tasks.hero + first, spreading));
       const F sigma =
           select(hero == I(0), F(grid.sigma_t[0]), select(hero == I(1), F(grid.sigma_t[1]), F(grid.sigma_t[2])));
       v.hero_sigma = select(m, sigma, v.hero_sigma);
@@ -187,8 +201,9 @@ struct Stream {
   // Lanes that never had a task stay at a harmless place, the first task's.
   void run() {
     const std::size_t lanes = static_cast<std::size_t>(lane_count());
-    const std::size_t enough = (3 * lanes + 7) / 8;
+    const std::size_t enough = (5 * lanes + 15) / 16;
     for (Tracks& v : vectors) {
+      const std::uint32_t first = next_task;
       std::uint32_t started = 0;
       for (std::size_t lane = 0; lane < lanes; ++lane) {
         v.task[lane] = next_task < task_count ? next_task : 0;
@@ -196,22 +211,25 @@ struct Stream {
         ++next_task;
         started |= 1u << lane;
       }
-      v.stepping = v.waiting = v.done = no_lanes();
+      v.stepping = v.waiting = v.located = v.done = no_lanes();
       start_all(v);
-      start(v, started);
+      start(v, started, first);
     }
     for (bool busy = true; busy;) {
       busy = false;
+      // What one round locates the next decides about: the memory has that long to answer.
+      for (Tracks& v : vectors)
+        if (any(v.located)) decide(v);
       for (int round = 0; round < steps_a_round; ++round)
         for (Tracks& v : vectors) step(v);
       for (Tracks& v : vectors) {
         const std::size_t waiting = count_lanes(v.waiting);
-        if (waiting >= enough || (waiting > 0 && !any(v.stepping))) look_up(v);
+        if (waiting >= enough || (waiting > 0 && !any(v.stepping))) locate(v);
       }
       for (Tracks& v : vectors) {
         const std::size_t done = count_lanes(v.done);
-        if (done >= enough || (done > 0 && !any(v.stepping) && !any(v.waiting))) finish(v);
-        busy = busy || any(v.stepping) || any(v.waiting) || any(v.done);
+        if (done >= enough || (done > 0 && !any(v.stepping) && !any(v.waiting) && !any(v.located))) finish(v);
+        busy = busy || any(v.stepping) || any(v.waiting) || any(v.located) || any(v.done);
       }
     }
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "render/scatter.h"
 #include "volume/volume_grid.h"
@@ -31,6 +32,7 @@ class FurnacePaths {
   PathColumns paths_;
   ShadowColumns shadows_;
   ScatterJob job_;
+  std::vector<float> random_;
   std::uint32_t started_ = 0;
 };
 

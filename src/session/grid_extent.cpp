@@ -20,7 +20,7 @@ kernel::BrickGrid view(const BrickGrid& g) {
 
 bool is_empty(const kernel::BrickGrid& g, Index brick) {
   const auto at = [&](std::size_t axis) { return static_cast<std::uint32_t>(brick[axis] + 1); };
-  return kernel::load_u32(g.table, at(2) * g.table_xy + at(1) * g.table_x + at(0)) == 0;
+  return kernel::load_u32(g.table, 2 * (at(2) * g.table_xy + at(1) * g.table_x + at(0))) == 0;
 }
 
 // Calls f(brick) for each brick that is not empty, in rows along `axis`, and end_row() after each row.

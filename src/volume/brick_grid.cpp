@@ -12,14 +12,28 @@ namespace {
 constexpr std::size_t max_words = std::size_t{1} << 31;
 
 std::size_t words_per_brick(Storage storage) {
-  return 2 + static_cast<std::size_t>(brick_voxels) * static_cast<std::size_t>(storage) / 32;
+  return static_cast<std::size_t>(brick_voxels) * static_cast<std::size_t>(storage) / 32;
 }
 
-// The word in the table that holds brick (x, y, z), border included.
+// The entry in the table that holds brick (x, y, z), border included.
 std::size_t table_index(const BrickGrid& grid, std::array<int, 3> brick) {
   const auto at = [](int i) { return static_cast<std::size_t>(i) + 1; };
   const auto row = [&](int axis) { return static_cast<std::size_t>(grid.bricks[static_cast<std::size_t>(axis)]) + 2; };
   return (at(brick[2]) * row(1) + at(brick[1])) * row(0) + at(brick[0]);
+}
+
+// The upper half of the float that is nearest to x among those not above it that end in 16 zero bits.
+std::uint32_t half_float_below(float x) {
+  const auto bits = std::bit_cast<std::uint32_t>(x);
+  const bool rounds_up = x < 0 && (bits & 0xffff) != 0;  // cutting bits moves it towards 0
+  return (bits >> 16) + (rounds_up && bits < 0xff7f0000u ? 1 : 0);  // the last finite one stays
+}
+
+// The same, not below; of a positive number.
+std::uint32_t half_float_above(double x) {
+  std::uint32_t upper = std::bit_cast<std::uint32_t>(static_cast<float>(x)) >> 16;
+  while (static_cast<double>(std::bit_cast<float>(upper << 16)) < x) ++upper;
+  return upper;
 }
 
 // Packs values as steps of `scale` above `offset`, `bits` each, the first in the lowest bits.
@@ -43,7 +57,7 @@ void append_packed(std::vector<std::uint32_t>& words, std::span<const float, bri
 BrickGridBuilder::BrickGridBuilder(std::array<int, 3> voxels, Storage storage) {
   grid_.voxels = voxels;
   grid_.storage = storage;
-  std::size_t table_words = 1;
+  std::size_t table_words = sizeof(BrickEntry) / sizeof(std::uint32_t);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (voxels[axis] < 1) throw std::length_error("a grid must have at least one voxel along each axis");
     grid_.bricks[axis] = (voxels[axis] - 1) / brick_edge + 1;
@@ -71,11 +85,11 @@ void BrickGridBuilder::set_brick(std::array<int, 3> brick, std::span<const float
   }
 
   const auto [lo, hi] = std::ranges::minmax(inside);
-  grid_.table[table_index(grid_, brick)] = lo < hi ? append(inside, lo, hi) : constant_brick(lo);
+  set_entry(brick, lo < hi ? append(inside, lo, hi) : constant_brick(lo));
 }
 
 void BrickGridBuilder::set_constant_brick(std::array<int, 3> brick, float value) {
-  grid_.table[table_index(grid_, brick)] = constant_brick(value);
+  set_entry(brick, constant_brick(value));
   sum_ += brick_voxels * static_cast<double>(value);
   grid_.nonzero_voxels += value != 0 ? brick_voxels : 0;
   min_ = std::min(min_, value);
@@ -83,9 +97,15 @@ void BrickGridBuilder::set_constant_brick(std::array<int, 3> brick, float value)
   voxels_set_ += brick_voxels;
 }
 
-std::uint32_t BrickGridBuilder::constant_brick(float value) {
-  if (value == 0) return 0;
-  const auto [known, is_new] = constant_bricks_.try_emplace(std::bit_cast<std::uint32_t>(value), 0);
+void BrickGridBuilder::set_entry(std::array<int, 3> brick, BrickEntry entry) {
+  const std::size_t at = 2 * table_index(grid_, brick);
+  grid_.table[at] = entry.first_word;
+  grid_.table[at + 1] = entry.steps;
+}
+
+BrickEntry BrickGridBuilder::constant_brick(float value) {
+  if (value == 0) return {};
+  const auto [known, is_new] = constant_bricks_.try_emplace(std::bit_cast<std::uint32_t>(value));
   if (is_new) {
     std::array<float, brick_voxels> values;
     values.fill(value);
@@ -106,21 +126,22 @@ void BrickGridBuilder::count(std::span<const float> values) {
   voxels_set_ += static_cast<std::int64_t>(values.size());
 }
 
-std::uint32_t BrickGridBuilder::append(std::span<const float, brick_voxels> values, float lo, float hi) {
+BrickEntry BrickGridBuilder::append(std::span<const float, brick_voxels> values, float lo, float hi) {
   std::vector<std::uint32_t>& words = grid_.words;
   const std::size_t first = words.size();
   if (first + words_per_brick(grid_.storage) > max_words) throw std::length_error("the grid's bricks are too large");
   const unsigned bits = static_cast<unsigned>(grid_.storage);
+  BrickEntry entry{static_cast<std::uint32_t>(first), 0};
   if (grid_.storage == Storage::f32) {
-    words.insert(words.end(), {0, 0});
     for (const float v : values) words.push_back(std::bit_cast<std::uint32_t>(v));
   } else {
     const double levels = static_cast<double>((1u << bits) - 1);
-    const float scale = static_cast<float>((static_cast<double>(hi) - static_cast<double>(lo)) / levels);
-    words.insert(words.end(), {std::bit_cast<std::uint32_t>(lo), std::bit_cast<std::uint32_t>(scale)});
-    append_packed(words, values, lo, scale, bits);
+    entry.steps = half_float_below(lo) << 16;
+    const auto offset = static_cast<double>(entry.offset());
+    entry.steps |= half_float_above((static_cast<double>(hi) - offset) / levels);
+    append_packed(words, values, offset, static_cast<double>(entry.scale()), bits);
   }
-  return static_cast<std::uint32_t>(first);
+  return entry;
 }
 
 BrickGrid BrickGridBuilder::finish() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -10,19 +11,29 @@
 
 namespace brume {
 
-// Bits a voxel. The error of a value is at most half a step of its brick's range, range / 510 for u8 and range / 131070
-// for u16, and the rounding of the float sum offset + scale q; none for f32. A brick whose smallest value is 0 holds
-// its zeros exactly. Voxels of a brick beyond the array's end are 0 and count in its range.
+// Bits a voxel. The error of a value is at most half a step of its brick, and the rounding of the float sum
+// offset + scale q; none for f32. Offset and scale are rounded to 16-bit floats, so that a step is at most
+// 1.01 (range + |smallest value| / 128) / levels, with 255 levels for u8 and 65535 for u16. A brick whose smallest value
+// is 0 holds its zeros exactly. Voxels of a brick beyond the array's end are 0 and count in its range.
 enum class Storage { u8 = 8, u16 = 16, f32 = 32 };
 
 constexpr int brick_edge = 8;
 constexpr int brick_voxels = brick_edge * brick_edge * brick_edge;
 
+// A brick in the table: its first word, and how its levels become values (kernel/lookup.inl).
+struct BrickEntry {
+  std::uint32_t first_word = 0;  // 0: the empty brick
+  std::uint32_t steps = 0;
+
+  float offset() const { return std::bit_cast<float>(steps & 0xffff0000u); }
+  float scale() const { return std::bit_cast<float>(steps << 16); }
+};
+
 struct BrickGrid {
   std::array<int, 3> voxels{};  // nx, ny, nz
   std::array<int, 3> bricks{};  // ceil(voxels / 8)
   Storage storage = Storage::u16;
-  std::vector<std::uint32_t> table;  // (bricks + 2) along each axis, x fastest: first word of the brick in `words`
+  std::vector<std::uint32_t> table;  // (bricks + 2) along each axis, x fastest: the two words of a BrickEntry each
   std::vector<std::uint32_t> words;  // the bricks, the shared empty one first
 
   // Of the values given: over all voxels of the array.
@@ -30,6 +41,7 @@ struct BrickGrid {
   double mean_value = 0;
   std::int64_t nonzero_voxels = 0;
 
+  BrickEntry entry(std::size_t i) const { return {table[2 * i], table[2 * i + 1]}; }
   std::size_t bytes() const { return (table.size() + words.size()) * sizeof(std::uint32_t); }
 };
 
@@ -51,14 +63,15 @@ class BrickGridBuilder {
 
  private:
   void count(std::span<const float> values);
-  std::uint32_t constant_brick(float value);
-  std::uint32_t append(std::span<const float, brick_voxels> values, float lo, float hi);
+  void set_entry(std::array<int, 3> brick, BrickEntry entry);
+  BrickEntry constant_brick(float value);
+  BrickEntry append(std::span<const float, brick_voxels> values, float lo, float hi);
 
   BrickGrid grid_;
   float min_ = std::numeric_limits<float>::infinity(), max_ = -std::numeric_limits<float>::infinity();
   double sum_ = 0;
   std::int64_t voxels_set_ = 0;
-  std::unordered_map<std::uint32_t, std::uint32_t> constant_bricks_;  // the value's bits to the brick's first word
+  std::unordered_map<std::uint32_t, BrickEntry> constant_bricks_;  // by the value's bits
 };
 
 // From a dense array, x fastest, of nx ny nz values.

@@ -15,10 +15,8 @@ struct Range {
 };
 
 // The largest value of the voxels in a part of one brick; x, y and z are within the brick.
-float brick_max(const BrickGrid& grid, std::uint32_t brick, Range x, Range y, Range z) {
-  const std::uint32_t* words = grid.words.data() + brick;
-  const float offset = std::bit_cast<float>(words[0]), scale = std::bit_cast<float>(words[1]);
-  words += 2;
+float brick_max(const BrickGrid& grid, BrickEntry brick, Range x, Range y, Range z) {
+  const std::uint32_t* words = grid.words.data() + brick.first_word;
   const bool is_float = grid.storage == Storage::f32, is_u16 = grid.storage == Storage::u16;
   float largest = 0;
   std::uint32_t largest_level = 0;
@@ -33,7 +31,7 @@ float brick_max(const BrickGrid& grid, std::uint32_t brick, Range x, Range y, Ra
         else
           largest_level = std::max(largest_level, words[voxel >> 2] >> ((voxel & 3) * 8) & 0xff);
       }
-  return is_float ? largest : offset + scale * static_cast<float>(largest_level);
+  return is_float ? largest : brick.offset() + brick.scale() * static_cast<float>(largest_level);
 }
 
 // The largest value in a box of voxels, 0 outside the array.
@@ -48,8 +46,8 @@ float box_max(const BrickGrid& grid, Range x, Range y, Range z) {
   for (int k = z.first / 8; 8 * k <= z.last; ++k)
     for (int j = y.first / 8; 8 * j <= y.last; ++j)
       for (int i = x.first / 8; 8 * i <= x.last; ++i) {
-        const std::uint32_t brick = grid.table[static_cast<std::size_t>((k + 1) * layer + (j + 1) * row + i + 1)];
-        if (brick != 0)
+        const BrickEntry brick = grid.entry(static_cast<std::size_t>((k + 1) * layer + (j + 1) * row + i + 1));
+        if (brick.first_word != 0)
           largest = std::max(largest, brick_max(grid, brick, in_brick(x, i), in_brick(y, j), in_brick(z, k)));
       }
   return largest;

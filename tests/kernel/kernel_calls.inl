@@ -70,7 +70,7 @@ inline void call_majorant_walk(const F* in, F* out, const TestGrid& g) {
     *out++ = majorant_cell_exit(walk);
     const I cell = select(both(I(-1) < walk.cell, walk.cell < I(512)), walk.cell, I(0));
     *out++ = majorant_at(majorants, cell);
-    majorant_step(walk);
+    majorant_step(walk, F(0.0f) < F(1.0f));
   }
 }
 inline void call_grid_stochastic(const F* in, F* out, const TestGrid& g) {

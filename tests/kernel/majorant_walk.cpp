@@ -54,7 +54,7 @@ Faults walk_rays(int edge, double believed_edge, float shift) {
         faults.outside += outside(p, cell, edge) > tolerance;
       }
       t = leave;
-      kernel::majorant_step(walk);
+      kernel::majorant_step(walk, true);
     }
     faults.beyond_border += steps == 4 * cells;
   }

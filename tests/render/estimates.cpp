@@ -33,7 +33,7 @@ void expect_estimate(const SceneDescription& scene, double expected, double roun
   const int pilot = 10000;
   const Estimate first = estimate(scene, pilot);
   const double ratio = first.standard_error / (relative_error * expected);
-  const int samples = static_cast<int>(std::clamp(1.1 * pilot * ratio * ratio, 10000.0, 2e7));
+  const int samples = static_cast<int>(std::clamp(1.1 * pilot * ratio * ratio, 10000.0, 2e8));
   SceneDescription other = scene;
   other.sampler.seed = scene.sampler.seed + 1;  // the pilot must not choose when to stop
   const Estimate e = estimate(other, samples);
