@@ -11,19 +11,20 @@ const char* const help_text =
     R"(Usage: brume bench [options]     how fast this machine is at what rendering is made of
 
   --json          one JSON object instead of a table
-  --size N        voxels along a cloud's longest side, 8 to 2048; may be repeated.
-                  Default: 256 and 512. The first is measured with every instruction set
-                  and storage, the others with the best set and 16 bits a voxel. The
-                  cloud is made with at most 256 voxels and enlarged beyond
+  --size N        voxels along the sides of a ball of noise, a tenth of it in use, 8 to
+                  2048; may be repeated. Default: 256 and 512. The first is measured with
+                  every instruction set and storage, the others with the best set and 16
+                  bits a voxel. The ball is made with at most 256 voxels and enlarged beyond
   --sparse N      voxels along the sides of a volume of scattered puffs, a tenth of it in
                   use, 8 to 2048; may be repeated. Default: 1024. Where one of --size and
                   --sparse is given, the other has no default
   --time SECONDS  for each line, default 0.5; the best of five rounds is shown
   --nthreads N    to make the volumes with, default 0: one per core. One thread is measured.
 
-  tracking      paths in a volume of optical depth 100, albedo 1 and g = 0.85 from collision
-                to collision; an event is a step through a cell of majorants or a look-up
-                of the density. Scattering is part of the time
+  paths         from collision to collision in a volume of optical depth 100, albedo 1 and
+                g = 0.85; an event is a step through a cell of majorants or a look-up of
+                the density
+  tracking      the same events, where nothing but the collisions is searched for
   marching      look-ups with linear interpolation along straight rays
   surface rays  single rays against 130,000 triangles)";
 

@@ -2,13 +2,13 @@
 // Index coordinates: voxel (i, j, k) is the cube [i, i+1] x ..., its value sits at the centre i + 1/2. Outside the
 // array the value is 0. Bricks are 8^3 voxels, x fastest; the table of bricks has a border of one empty brick on every
 // side, so that indices in [-8, n + 7] need no bounds test; callers clip their rays to the grid's bounds, which lie
-// within. A brick is its 512 values, packed: value = offset + scale * q for 8- and 16-bit q (error at most scale / 2), or
-// the float itself. Offset and scale are floats of 16 bits (the upper halves of theirs), beside the brick's place in the
-// table: one gather of 64 bits fetches all of a brick that a look-up needs to know.
+// within. A brick is its 512 values, packed: value = offset + scale * q for 8- and 16-bit q (error at most scale / 2),
+// or the float itself. Offset and scale are floats of 16 bits (the upper halves of theirs), beside the brick's place in
+// the table: one gather of 64 bits fetches all of a brick that a look-up needs to know.
 
 struct BrickGrid {
-  Words table;  // two words for each brick: its first word in `bricks`, and offset (upper half) with scale (lower half);
-                // the brick at 0 is the shared empty one
+  Words table;  // two words for each brick: its first word in `bricks`, and offset (upper half) with scale (lower
+                // half); the brick at 0 is the shared empty one
   Words bricks;
   uint table_x;   // bricks along x, border included: the table's row
   uint table_xy;  // bricks in a layer, border included

@@ -70,7 +70,8 @@ KERNEL void majorant_step(INOUT(MajorantWalk) w, B moves) {
 KERNEL F majorant_at(MajorantGrid g, I cell) { return bits_float(load_u32(g.cells, cell)); }
 
 // One voxel in place of the trilinear interpolant's eight: a neighbour of p_index chosen with the interpolant's
-// weights, so that the expectation of its value is the interpolant. `a` and `b` are words of random bits: 16 for each axis.
+// weights, so that the expectation of its value is the interpolant. `a` and `b` are words of random bits: 16 for each
+// axis.
 // Source: M. Pharr, B. Wronski, M. Salvi and M. Fajardo, "Filtering After Shading With Stochastic Texture Filtering",
 // I3D 2024.
 KERNEL VoxelPlace grid_stochastic_place(BrickGrid g, vec3 p_index, U a, U b) {

@@ -60,28 +60,6 @@ namespace brume {
 
 HWY_EXPORT(clip_lanes);
 
-namespace {
-
-void copy_task(const TrackTasks& from, std::uint32_t i, TrackTasks& to) {
-  to.make_room(1);
-  const TrackColumns &f = from.columns, &t = to.columns;
-  const std::uint32_t at = to.count++;
-  for (int axis = 0; axis < 3; ++axis) {
-    t.entry[axis][at] = f.entry[axis][i];
-    t.direction[axis][at] = f.direction[axis][i];
-  }
-  t.length[at] = f.length[i];
-  t.t_begin[at] = f.t_begin[i];
-  t.optical_depth[at] = f.optical_depth[i];
-  t.key[at] = f.key[i];
-  t.pixel[at] = f.pixel[i];
-  t.sample[at] = f.sample[i];
-  t.hero[at] = f.hero[i];
-  t.ray[at] = f.ray[i];
-}
-
-}  // namespace
-
 MediumTasks::MediumTasks(const CompiledScene& scene, const Intersector& intersector, const MediaAlongRay& media)
     : scene_(scene), intersector_(intersector), media_(media), tasks_(scene.media.size()) {
   for (const CompiledMedium& medium : scene.media) {
@@ -169,7 +147,7 @@ void MediumTasks::split_first_flights(std::size_t medium, const FlightColumns& f
   for (std::uint32_t i = 0; i < tasks.count; ++i) {
     const std::uint32_t ray = tasks.columns.ray[i];
     if (flights.depth[ray] != 0 || stretch_counts_[ray] != 1) continue;
-    copy_task(tasks, i, again_);
+    again_.append(tasks, i);
     tasks.columns.length[i] = 0;
   }
   track_split(*grids_[medium], again_, counts_);
@@ -242,7 +220,7 @@ void MediumTasks::weigh_flights(std::size_t medium, const FlightColumns& flights
       for (int k = 0; weighed && k < 3; ++k) flights.weight[k][c.ray[i]] *= c.weight[k][i];
       continue;
     }
-    copy_task(tasks_[medium], i, again_);
+    again_.append(tasks_[medium], i);
     again_.columns.length[again_.count - 1] = end;
   }
   if (again_.count == 0 || (grids_[medium] && !grids_[medium]->chromatic)) return;

@@ -15,8 +15,8 @@ namespace brume {
 namespace HWY_NAMESPACE {
 
 // Vectors in flight: enough for their latencies to overlap, no more, since they run half empty at the end of a call.
-constexpr int vector_count = 4;
-constexpr int steps_a_round = 2;
+constexpr int vector_count = 3;
+constexpr int steps_a_round = 3;
 // The least survival before roulette ends tracks that carry little transmittance.
 constexpr float roulette_below = 0.1f;
 // The least weight that a track is split at.
@@ -32,7 +32,7 @@ struct Tracks {
   U key, pixel, sample, counter;
   F weight[3];  // transmittance; or the null collisions' weights
   F hero_sigma;
-  F chosen;  // the t of a split track's collision; negative where there is none
+  F chosen;          // the t of a split track's collision; negative where there is none
   VoxelPlace place;  // of the tentative collision, with what will decide about it
   U decision, next_distance;
   B stepping, waiting, located, done;
@@ -201,7 +201,7 @@ struct Stream {
   // Lanes that never had a task stay at a harmless place, the first task's.
   void run() {
     const std::size_t lanes = static_cast<std::size_t>(lane_count());
-    const std::size_t enough = (5 * lanes + 15) / 16;
+    const std::size_t enough = (3 * lanes + 7) / 8;
     for (Tracks& v : vectors) {
       const std::uint32_t first = next_task;
       std::uint32_t started = 0;
@@ -305,6 +305,24 @@ void TrackTasks::make_room(std::uint32_t more) {
   auto w = words_.begin();
   for (auto* column : {&columns.key, &columns.pixel, &columns.sample, &columns.hero, &columns.ray})
     *column = (w++)->data();
+}
+
+void TrackTasks::append(const TrackTasks& from, std::uint32_t i) {
+  make_room(1);
+  const TrackColumns &f = from.columns, &t = columns;
+  const std::uint32_t at = count++;
+  for (int axis = 0; axis < 3; ++axis) {
+    t.entry[axis][at] = f.entry[axis][i];
+    t.direction[axis][at] = f.direction[axis][i];
+  }
+  t.length[at] = f.length[i];
+  t.t_begin[at] = f.t_begin[i];
+  t.optical_depth[at] = f.optical_depth[i];
+  t.key[at] = f.key[i];
+  t.pixel[at] = f.pixel[i];
+  t.sample[at] = f.sample[i];
+  t.hero[at] = f.hero[i];
+  t.ray[at] = f.ray[i];
 }
 
 void track_collisions(const TrackedGrid& grid, TrackTasks& tasks, TrackCounts& counts) {

@@ -2,11 +2,11 @@
 //
 // A worker keeps a few vectors of tracks in flight. Four phases run over them: steps through the grid of majorants;
 // tentative collisions are located in memory, which is asked for their densities; the round after, these decide what
-// the collisions are; and tracks end and new ones start. A phase runs for a vector once enough of its lanes wait for it,
-// so that lanes are seldom idle although tracks differ in everything.
-// Source of tracking: E. Woodcock et al., 1965; of its weights: B. Miller, I. Georgiev and W. Jarosz, "A
-// Null-Scattering Path Integral Formulation of Light Transport", TOG 38(4), 2019; of ratio tracking: J. Novák et al.,
-// "Residual Ratio Tracking for Estimating Attenuation in Participating Media", TOG 33(6), 2014.
+// the collisions are; and tracks end and new ones start. A phase runs for a vector once enough of its lanes wait for
+// it, so that lanes are seldom idle although tracks differ in everything. Source of tracking: E. Woodcock et al., 1965;
+// of its weights: B. Miller, I. Georgiev and W. Jarosz, "A Null-Scattering Path Integral Formulation of Light
+// Transport", TOG 38(4), 2019; of ratio tracking: J. Novák et al., "Residual Ratio Tracking for Estimating Attenuation
+// in Participating Media", TOG 33(6), 2014.
 #pragma once
 
 #include <array>
@@ -59,6 +59,9 @@ class TrackTasks {
 
   // Makes room for `more` stretches beyond `count`. Columns move.
   void make_room(std::uint32_t more);
+
+  // Adds stretch i of another's, without results.
+  void append(const TrackTasks& from, std::uint32_t i);
 
  private:
   std::uint32_t room_ = 0;

@@ -44,6 +44,24 @@ double rate_of(double seconds, Run&& run) {
 
 float random_number(std::uint32_t ray, std::uint32_t number) { return kernel::random_uniform(1, 0, ray, number); }
 
+// The stream alone: stretches of paths in a furnace, as many at a time as a worker of volpath has.
+double tracking_rate(const CompiledScene& scene, double seconds) {
+  constexpr int until_settled = 16, waves = 64;
+  FurnacePaths paths(scene);
+  for (int i = 0; i < until_settled; ++i) paths.advance();
+  std::vector<TrackTasks> stretches(waves);
+  for (TrackTasks& wave : stretches) {
+    paths.append_stretches(wave);
+    paths.advance();
+  }
+  const TrackedGrid grid(scene.grids.front(), scene.media.front());
+  return rate_of(seconds, [&] {
+    TrackCounts counts;
+    for (TrackTasks& wave : stretches) track_collisions(grid, wave, counts);
+    return counts.steps + counts.look_ups;
+  });
+}
+
 // Straight through the volume of a furnace.
 double marching_rate(const CompiledScene& scene, double seconds) {
   const CompiledGrid& grid = scene.grids.front();
@@ -123,24 +141,24 @@ void bench(const BenchOptions& options, const std::function<void(const BenchResu
       const CompiledScene scene = furnace_scene(std::move(grid), options.threads);
       for (const InstructionSet& set : sets) {
         use_instruction_set(set.name);
-        FurnacePaths paths(scene);
         const auto result = [&](const char* measured, const char* unit, double rate) {
           on_result({measured, unit, name, storage, std::string(set.title), rate});
         };
-        result("tracking", "events", rate_of(options.seconds, [&] { return paths.advance(); }));
+        result("tracking", "events", tracking_rate(scene, options.seconds));
+        FurnacePaths paths(scene);
+        result("paths", "events", rate_of(options.seconds, [&] { return paths.advance(); }));
         result("marching", "look-ups", marching_rate(scene, options.seconds));
       }
       use_instruction_set(best.name);
     };
-    // One cloud, resampled: to make each anew would take longer than to measure them.
-    VolumeGrid cloud;
-    if (!options.sizes.empty())
-      cloud = procedural_cloud({std::min(options.sizes[0], 256), 0, Storage::f32}, options.threads);
+    // One volume, resampled: to make each anew would take longer than to measure them.
+    VolumeGrid ball;
+    if (!options.sizes.empty()) ball = noise_ball(std::min(options.sizes[0], 256), Storage::f32, options.threads);
     for (std::size_t i = 0; i < options.sizes.size(); ++i)
       for (const Storage storage : {Storage::u8, Storage::u16, Storage::f32})
         if (i == 0 || storage == Storage::u16) {
           const int size = options.sizes[i];
-          measure(std::to_string(size), resample(cloud, {size, (6 * size + 9) / 10, size}, storage, options.threads),
+          measure(std::to_string(size), resample(ball, {size, size, size}, storage, options.threads),
                   i == 0 ? available_instruction_sets() : std::vector{best});
         }
     for (const int size : options.sparse_sizes)

@@ -65,7 +65,8 @@ FurnacePaths::FurnacePaths(const CompiledScene& scene)
   for (std::uint32_t path = 0; path < path_count; ++path) start(path);
 }
 
-// With numbers from a table, for making them is not what is measured. At a random place of the volume's side z = -1, about along +z.
+// At a random place of the volume's side z = -1, about along +z; with numbers from a table, for making them is not what
+// is measured.
 void FurnacePaths::start(std::uint32_t path) {
   const std::uint32_t number = started_++;
   const auto random = [&](std::uint32_t i) { return random_[(number * 19 + i) % random_count]; };
@@ -101,6 +102,12 @@ std::int64_t FurnacePaths::advance() {
   for (std::uint32_t path = 0; path < path_count; ++path)
     if (!(paths_.ray.t_max[path] > 0)) start(path);
   return events() - before;
+}
+
+void FurnacePaths::append_stretches(TrackTasks& to) {
+  media_.find_stretches(paths_.ray, path_count);
+  const TrackTasks& from = media_.stretches(0);
+  for (std::uint32_t i = 0; i < from.count; ++i) to.append(from, i);
 }
 
 }  // namespace brume

@@ -21,6 +21,9 @@ class FurnacePaths {
   // the number of events: steps through cells of majorants, and look-ups of the density.
   std::int64_t advance();
 
+  // Adds the stretches that the paths are about to cross.
+  void append_stretches(TrackTasks& to);
+
  private:
   void start(std::uint32_t path);
 

@@ -25,7 +25,7 @@ std::size_t table_index(const BrickGrid& grid, std::array<int, 3> brick) {
 // The upper half of the float that is nearest to x among those not above it that end in 16 zero bits.
 std::uint32_t half_float_below(float x) {
   const auto bits = std::bit_cast<std::uint32_t>(x);
-  const bool rounds_up = x < 0 && (bits & 0xffff) != 0;  // cutting bits moves it towards 0
+  const bool rounds_up = x < 0 && (bits & 0xffff) != 0;             // cutting bits moves it towards 0
   return (bits >> 16) + (rounds_up && bits < 0xff7f0000u ? 1 : 0);  // the last finite one stays
 }
 

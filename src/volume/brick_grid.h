@@ -13,8 +13,8 @@ namespace brume {
 
 // Bits a voxel. The error of a value is at most half a step of its brick, and the rounding of the float sum
 // offset + scale q; none for f32. Offset and scale are rounded to 16-bit floats, so that a step is at most
-// 1.01 (range + |smallest value| / 128) / levels, with 255 levels for u8 and 65535 for u16. A brick whose smallest value
-// is 0 holds its zeros exactly. Voxels of a brick beyond the array's end are 0 and count in its range.
+// 1.01 (range + |smallest value| / 128) / levels, with 255 levels for u8 and 65535 for u16. A brick whose smallest
+// value is 0 holds its zeros exactly. Voxels of a brick beyond the array's end are 0 and count in its range.
 enum class Storage { u8 = 8, u16 = 16, f32 = 32 };
 
 constexpr int brick_edge = 8;

@@ -1,4 +1,4 @@
-// Two lattice noises over three-dimensional space, with a period beyond any use of them: functions of seed and place
+// Lattice noises over three-dimensional space, with a period beyond any use of them: functions of seed and place
 // only.
 #pragma once
 
@@ -13,6 +13,9 @@ struct NoisePoint {
 // Gradient noise: continuous, zero at the lattice's points, about [-1, 1], features of about one unit.
 // Source: K. Perlin, "Improving Noise", SIGGRAPH 2002, with gradients drawn by hash from its twelve.
 float perlin_noise(std::uint32_t seed, NoisePoint p);
+
+// Values drawn by hash at the lattice's points and interpolated with zero slope there: continuous, [0, 1].
+float value_noise(std::uint32_t seed, NoisePoint p);
 
 // The distance to the nearest of points strewn one to each unit cube: 0 at a point, seldom above 1, never above
 // sqrt(3).

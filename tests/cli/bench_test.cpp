@@ -39,8 +39,9 @@ TEST(Bench, PrintsATable) {
                       rate),
                 1)
           << set.title << bits;
-  EXPECT_EQ(lines("\\| 32 \\| 16 bits "), 2);
+  EXPECT_EQ(lines("\\| 32 \\| 16 bits "), 3);
   EXPECT_EQ(lines("tracking, events \\| 40 sparse \\| 16 bits \\| [^|]+ " + rate), 1);
+  EXPECT_EQ(lines("paths, events \\| 40 sparse \\| 16 bits \\| [^|]+ " + rate), 1);
   EXPECT_EQ(lines("marching, look-ups \\| 40 sparse \\| 16 bits \\| [^|]+ " + rate), 1);
   EXPECT_EQ(lines("surface rays, rays \\| - \\| - \\| - " + rate), 1);
 }

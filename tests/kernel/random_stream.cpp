@@ -93,9 +93,10 @@ TEST(RandomStream, TheWordsOfACounterAreIndependent) {
   for (std::size_t axis = 0; axis < 4; ++axis)
     for (int first = 0; first < 4; ++first)
       for (int second = 0; second < 4; ++second) {
-        if (first < second)
+        if (first < second) {
           EXPECT_GT(word_pair_p_value(axis, first, second, 0), significance)
               << "along " << names[axis] << ", words " << first << " and " << second;
+        }
         EXPECT_GT(word_pair_p_value(axis, first, second, 1), significance)
             << "along " << names[axis] << ", words " << first << " and the next one's " << second;
       }
