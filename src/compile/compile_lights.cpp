@@ -15,12 +15,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-double mean(const Spectrum& s) {
-  double sum = 0;
-  for (int c = 0; c < channel_count; ++c) sum += static_cast<double>(s[c]);
-  return sum / channel_count;
-}
-
 Vector3 to_double(const std::array<float, 3>& p) {
   return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
 }
@@ -236,6 +230,7 @@ void Compiler::add_light_choice() {
   double total = 0;
   for (const double p : powers) total += p;
   for (double& p : powers) p = equal_part / static_cast<double>(n) + (total > 0 ? (1 - equal_part) * p / total : 0);
+  compiled_.mean_radiance = static_cast<float>(total / (4 * pi * disk));
   std::vector<float> cdf;
   append_cdf(powers, cdf);
   for (std::size_t i = 0; i < n; ++i) compiled_.lights[i].chance = cdf[i + 1] - cdf[i];

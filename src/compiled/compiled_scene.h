@@ -170,6 +170,7 @@ struct CompiledScene {
   std::vector<CompiledBoundary> boundaries;
   std::vector<CompiledMaterial> materials;
   std::vector<CompiledLight> lights;
+  float mean_radiance = 0;           // in the scene, about: that of light which crosses it without being absorbed
   std::vector<float> light_cdf;      // cumulative chances of lights, without the leading 0
   std::vector<float> triangle_cdfs;  // cumulative shares of area of the triangles of mesh lights, likewise
   std::vector<CompiledEnvironment> environments;

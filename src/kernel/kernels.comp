@@ -22,7 +22,7 @@ void load_u32_pair(uint array, uint pair, out uint first, out uint second) {
 #include "kernel/all.inl"
 #include "kernel/phase_dispatch.glsl"
 
-const uint result_count = 24;
+const uint result_count = 27;
 
 void main() {
   uint id = gl_GlobalInvocationID.x;
@@ -64,6 +64,12 @@ void main() {
   results[out_index + 13] = phase_eval(arguments.phase_kind, 2.0 * u[6] - 1.0, p);
   results[out_index + 14] = phase_sample(arguments.phase_kind, u[7], p);
   results[out_index + 17] = phase_mean_cosine(arguments.phase_kind, p);
+
+  vec3 axis = normalize(origin);
+  vec3 turned = aimed_direction(axis, u[6], u[7]) + direction_at_cosine(axis, u[6], u[7]);
+  results[out_index + 24] = turned.x + turned.y + turned.z;
+  results[out_index + 25] = aimed_density(axis, normalize(direction));
+  results[out_index + 26] = aimed_strength(u[6], u[7], u[8]);
 
   uint first, second;
   sobol_pair(words[0], id & 63u, id >> 6, 16u, words[1], 0u, first, second);

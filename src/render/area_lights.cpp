@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/directions.h"
-
 namespace brume {
 
 using kernel::vec3;
@@ -36,8 +34,8 @@ LightPoint sample_sphere(const CompiledQuadric& sphere, vec3 p, RandomStream& ra
   const Cone cone = cone_to_sphere(from);
   const auto [u, turns] = random.next_pair();
   const double z = 1 - static_cast<double>(u) * cone.size;
-  const vec3 around = direction_around_z(static_cast<float>(z), turns);
-  const Vector3 d = normalize(to_double(rotate_to(to_float(cone.axis), around)));
+  const Vector3 d =
+      normalize(to_double(kernel::direction_at_cosine(to_float(cone.axis), static_cast<float>(z), turns)));
   const double b = -dot(from, d), half_chord = std::sqrt(std::max(0.0, 1 - dot(from + b * d, from + b * d)));
   const bool inside = cone.size == 2;
   const Vector3 q = normalize(from + (inside ? b + half_chord : b - half_chord) * d);

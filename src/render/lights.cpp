@@ -6,7 +6,6 @@
 
 #include "base/sphere_map.h"
 #include "render/area_lights.h"
-#include "render/directions.h"
 #include "render/surfaces.h"
 
 namespace brume {
@@ -29,10 +28,12 @@ LightSample sample_point(const CompiledLight& light, vec3 p) {
 
 LightSample sample_constant(const CompiledLight& light, vec3 p, const vec3* normal, RandomStream& random) {
   const auto [u, turns] = random.next_pair();
-  if (!normal) return {{p, direction_around_z(1 - 2 * u, turns), far_away}, 4 * pi * light.value, 0.25f / pi};
+  if (!normal) {
+    const vec3 direction = kernel::direction_at_cosine({0, 0, 1}, 1 - 2 * u, turns);
+    return {{p, direction, far_away}, 4 * pi * light.value, 0.25f / pi};
+  }
   const float cosine = std::sqrt(1 - u);
-  return {
-      {p, rotate_to(*normal, direction_around_z(cosine, turns)), far_away}, (pi / cosine) * light.value, cosine / pi};
+  return {{p, kernel::direction_at_cosine(*normal, cosine, turns), far_away}, (pi / cosine) * light.value, cosine / pi};
 }
 
 // The last of the `count` steps of a cumulative table at which it does not exceed u; u becomes the share of that step

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/directions.h"
 #include "render/phase.h"
 #include "render/surfaces.h"
 
@@ -48,7 +47,7 @@ Spectrum ReferenceIntegrator::radiance(Ray ray, RandomStream& random) {
       const auto [u, turns] = random.next_pair();
       const float mu = phase_sample(medium, u);
       departure = {phase_eval(medium, mu), false, {}};
-      ray = {collision.position, normalize(rotate_to(ray.direction, direction_around_z(mu, turns))), far_away};
+      ray = {collision.position, kernel::direction_at_cosine(ray.direction, mu, turns), far_away};
     } else {
       hit = facing(hit, ray.direction);
       const auto scatter = [&](vec3 to_light, float& pdf) {

@@ -17,17 +17,59 @@ namespace HWY_NAMESPACE {
 constexpr float shadow_roulette_below = 0.5f;
 constexpr float path_roulette_below = 0.05f;
 
-// From coordinates about the z axis to coordinates about the unit vector n (render/directions.h).
-HWY_INLINE vec3 rotate_lanes(vec3 n, F mu, F turns) {
-  const F r = sqrt(max(1.0f - mu * mu, F(0.0f)));
-  F sine, cosine;
-  sincos_turns(turns, sine, cosine);
-  const F x = r * cosine, y = r * sine;
-  const F sign = select(n.z < 0.0f, F(-1.0f), F(1.0f));
-  const F a = F(-1.0f) / (sign + n.z), b = n.x * n.y * a;
-  const vec3 x_axis(fma(sign * n.x, n.x * a, F(1.0f)), sign * b, -(sign * n.x));
-  const vec3 y_axis(b, fma(n.y, n.y * a, sign), -n.y);
-  return normalize(x * x_axis + y * y_axis + mu * n);
+// A new direction: by the phase function, or aimed at a light. `density` is that of the mixture, and `weight` the phase
+// function over it.
+struct NewDirection {
+  vec3 direction;
+  F density, weight;
+};
+
+HWY_INLINE vec3 lanes_of(kernel::vec3 v) { return vec3(v.x, v.y, v.z); }
+
+// What AimFrom of aim.h does, for a phase function.
+template <class Phase>
+HWY_INLINE NewDirection new_direction(const ScatterJob& job, vec4 phase, vec3 p, vec3 direction, F u, F turns) {
+  const auto eval = [&](vec3 towards) {
+    return Phase::eval(min(max(dot(towards, direction), F(-1.0f)), F(1.0f)), phase);
+  };
+  if (job.aimed_light_count == 0) {
+    const F mu = Phase::sample(u, phase);
+    return {direction_at_cosine(direction, mu, turns), Phase::eval(mu, phase), 1.0f};
+  }
+  const auto direction_to = [&](int k, F& distance) {
+    const vec3 to_light = lanes_of(job.aimed_lights[k].position) - p;
+    distance = max(length(to_light), F(1e-20f));
+    return to_light * (F(1.0f) / distance);
+  };
+  const auto strength_of = [&](int k) {
+    F distance;
+    const vec3 to_light = direction_to(k, distance);
+    return aimed_strength(F(job.aimed_lights[k].strength), distance, eval(to_light));
+  };
+  F strength = 0.0f;
+  for (int k = 0; k < job.aimed_light_count; ++k) strength = strength + strength_of(k);
+  const F scale = F(Aim::most) / (strength + job.elsewhere), chance = scale * strength;
+  const F by_phase = max(u - chance, F(0.0f)) / (1.0f - chance);
+  NewDirection next;
+  next.direction = direction_at_cosine(direction, Phase::sample(by_phase, phase), turns);
+  F left = u;
+  for (int k = 0; k < job.aimed_light_count; ++k) {
+    F distance;
+    const vec3 to_light = direction_to(k, distance);
+    const F share = scale * strength_of(k);
+    const B chosen = both(left >= 0.0f, left < share);
+    next.direction = select3(chosen, aimed_direction(to_light, left / max(share, F(1e-30f)), turns), next.direction);
+    left = left - share;
+  }
+  const F value = eval(next.direction);
+  next.density = value * (1.0f - chance);
+  for (int k = 0; k < job.aimed_light_count; ++k) {
+    F distance;
+    const vec3 to_light = direction_to(k, distance);
+    next.density = fma(scale * strength_of(k), aimed_density(to_light, next.direction), next.density);
+  }
+  next.weight = value / next.density;
+  return next;
 }
 
 // The numbers of an event: `light`, u and v of the direction, and one for roulette.
@@ -60,7 +102,7 @@ template <class Phase>
 std::uint32_t scatter(const ScatterJob& job, const PathColumns& paths, std::uint32_t count,
                       const ShadowColumns& shadows, std::uint32_t& shadow_count, LightRequest* requests) {
   const vec4 phase(job.phase_numbers[0], job.phase_numbers[1], job.phase_numbers[2], job.phase_numbers[3]);
-  const F max_depth = static_cast<float>(job.max_depth);
+  const F max_depth = static_cast<float>(job.max_depth), last_depth = static_cast<float>(job.last_depth);
   const std::uint32_t hashed_seed = hash_seed(job.seed);
   std::uint32_t request_count = 0;
   std::uint32_t at = shadow_count;
@@ -167,14 +209,13 @@ std::uint32_t scatter(const ScatterJob& job, const PathColumns& paths, std::uint
     }
 
     // A new direction, or the end by roulette.
-    const F survival = min(worth * (1 / path_roulette_below), F(1.0f));
-    const B survives = both(goes_on, n.roulette < survival);
-    const F mu = Phase::sample(n.u, phase);
-    const vec3 next = rotate_lanes(direction, mu, n.v);
-    for (int c = 0; c < 3; ++c) put(f[c] / survival, here, paths.throughput[c] + i);
+    const NewDirection next = new_direction<Phase>(job, phase, p, direction, n.u, n.v);
+    const F survival = min(worth * next.weight * (1 / path_roulette_below), F(1.0f));
+    const B survives = both(both(goes_on, to_float(as_int(depth)) < last_depth), n.roulette < survival);
+    for (int c = 0; c < 3; ++c) put(f[c] * next.weight / survival, here, paths.throughput[c] + i);
     put3(p, here, paths.ray.origin, i);
-    put3(next, here, paths.ray.direction, i);
-    put(Phase::eval(mu, phase) * F(job.density_scale), here, paths.direction_density + i);
+    put3(next.direction, here, paths.ray.direction, i);
+    put(next.density * F(job.density_scale), here, paths.direction_density + i);
     put(select(survives, F(1e30f), F(0.0f)), here, paths.ray.t_max + i);
     put(depth + U(1u), here, paths.depth + i);
     const U key = hash_word((depth + U(1u)) * U(0x9e3779b9u) ^ U(hashed_seed));

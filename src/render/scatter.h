@@ -1,6 +1,7 @@
 // Collisions with one medium: light that reaches them, and where paths go on. In SIMD lanes over all paths.
 #pragma once
 
+#include "render/aim.h"
 #include "render/paths.h"
 
 namespace brume {
@@ -27,9 +28,14 @@ struct ScatterJob {
   float pick_end = 0;               // numbers from here on choose no light
   float picks_of_delta_lights = 0;  // numbers from here on choose lights of other kinds
   int max_depth = 0;
+  int last_depth = 0;  // paths that have been scattered more often than this meet no light any more
   std::uint32_t seed = 0;
   bool is_chromatic = false;
   float density_scale = 1;  // of the density of new directions
+  // Lights that paths are aimed at, and what is seen elsewhere (aim.h).
+  const AimedLight* aimed_lights = nullptr;
+  int aimed_light_count = 0;
+  float elsewhere = 0;
   // The medium.
   std::int32_t medium = 0;
   int phase = 0;

@@ -1,6 +1,5 @@
 #include "render/surfaces.h"
 
-#include "render/directions.h"
 #include "render/fresnel.h"
 
 namespace brume {
@@ -27,7 +26,7 @@ SurfaceSample sample_blinn_phong(const CompiledMaterial& material, vec3 n, vec3 
   if (chance > 0 && random.next() < chance) return {reflect(direction, n), (1 / chance) * material.mirror, 0, false};
   const auto [u, turns] = random.next_pair();
   const float cosine = std::sqrt(1 - u);
-  const vec3 chosen = normalize(rotate_to(n, direction_around_z(cosine, turns)));
+  const vec3 chosen = kernel::direction_at_cosine(n, cosine, turns);
   const Spectrum f = blinn_phong(material, n, chosen, -direction);
   return {chosen, (std::numbers::pi_v<float> / (1 - chance)) * f, (1 - chance) * cosine * std::numbers::inv_pi_v<float>,
           false};

@@ -8,7 +8,6 @@
 #include "render/lights.h"
 #include "render/phase.h"
 #include "render/random_stream.h"
-#include "render/surfaces.h"
 
 namespace brume {
 
@@ -40,6 +39,15 @@ void set(float* const* columns, std::uint32_t i, const Spectrum& s) {
 
 void add(float* const* columns, std::uint32_t i, const Spectrum& s) {
   for (int c = 0; c < 3; ++c) columns[c][i] += s[c];
+}
+
+// Whether a path can meet light by itself, without a shadow ray.
+bool paths_meet_light(const CompiledScene& scene) {
+  using Kind = CompiledLight::Kind;
+  return std::any_of(scene.lights.begin(), scene.lights.end(),
+                     [](const CompiledLight& l) { return l.kind != Kind::point && l.kind != Kind::distant; }) ||
+         std::any_of(scene.media.begin(), scene.media.end(),
+                     [](const CompiledMedium& m) { return !is_zero(m.emission); });
 }
 
 // The lights for which is_in(light), points and directions first.
@@ -83,6 +91,15 @@ void set_lights(ScatterJob& job, const LightTable& table) {
   job.pick_end = table.lights.empty() ? 0 : 1;
 }
 
+// The choice of a direction from the surface at p, where `direction` comes.
+auto aim_at_surface(const CompiledScene& scene, const Aim& aim, vec3 p, const SurfaceHit& hit, vec3 direction) {
+  return AimFrom(aim, p, [&scene, &hit, direction](vec3 to_light) {
+    float density = 0;
+    eval_surface(scene, hit, direction, to_light, density);
+    return density;
+  });
+}
+
 }  // namespace
 
 int LightTable::pick(float u) const {
@@ -96,6 +113,8 @@ VolpathIntegrator::VolpathIntegrator(const CompiledScene& scene, const Intersect
     : scene_(scene),
       intersector_(intersector),
       filter_(filter),
+      aim_(make_aim(scene, media)),
+      last_depth_(scene.integrator.max_depth - (paths_meet_light(scene) ? 0 : 1)),
       media_(scene, intersector, media),
       shadow_media_(scene, intersector, media),
       memory_(shadow_room),
@@ -135,6 +154,10 @@ void VolpathIntegrator::make_jobs() {
     const bool places = medium.grid < 0 && !point_lights_.lights.empty();
     ScatterJob job;
     job.max_depth = scene_.integrator.max_depth;
+    job.last_depth = last_depth_;
+    job.aimed_lights = aim_.lights.data();
+    job.aimed_light_count = static_cast<int>(aim_.lights.size());
+    job.elsewhere = aim_.elsewhere;
     job.seed = scene_.seed;
     job.is_chromatic = media_.is_chromatic();
     job.medium = static_cast<std::int32_t>(i);
@@ -325,18 +348,19 @@ void VolpathIntegrator::meet_surface(std::uint32_t path) {
   }
   paths_.ray.t_max[path] = 0;
   const std::uint32_t depth = paths_.depth[path];
-  if (depth >= static_cast<std::uint32_t>(scene_.integrator.max_depth)) return;
+  if (static_cast<int>(depth) >= scene_.integrator.max_depth) return;
 
   const SurfaceHit hit = facing(hits_[path], ray.direction);
   const Spectrum before = spectrum_at(paths_.throughput, path);
   gather_at_surface(path, hit, before);
+  if (static_cast<int>(depth) >= last_depth_) return;
   const auto width = static_cast<std::uint32_t>(scene_.width);
   RandomStream random(scene_, static_cast<int>(paths_.ray.pixel[path] % width),
                       static_cast<int>(paths_.ray.pixel[path] / width), static_cast<int>(paths_.ray.sample[path]));
   const bool has_points = depth < sobol_events;
   random.skip_to(has_points ? static_cast<std::uint32_t>(first_point_of_event[depth] + 4) / 2 : 0, has_points ? 1 : 0,
                  hashed_numbers(depth));
-  const SurfaceSample next = sample_surface(scene_, hit, ray.direction, random);
+  const SurfaceSample next = scatter_at_surface(path, hit, random);
   Spectrum throughput = before * next.weight;
   const float worth = max_value(throughput) / rescale_mean(path), survival = std::min(1.0f, worth / 0.05f);
   if (!(kernel::uniform_from_bits(random.next_bits()) < survival)) return;
@@ -350,6 +374,32 @@ void VolpathIntegrator::meet_surface(std::uint32_t path) {
   paths_.ray.key[path] = event_key(scene_.seed, depth + 1);
   paths_.ray.distance_u[path] = depth + 1 < sobol_events ? paths_.points[first_point_of_event[depth + 1]][path]
                                                          : kernel::uniform_from_bits(random.next_bits());
+}
+
+// Where the path goes on from a surface: as the material samples it, or aimed at a light.
+SurfaceSample VolpathIntegrator::scatter_at_surface(std::uint32_t path, const SurfaceHit& hit,
+                                                    RandomStream& random) const {
+  const Ray ray = ray_of(path);
+  if (aim_.lights.empty() || !scatters_widely(material_at(scene_, hit)))
+    return sample_surface(scene_, hit, ray.direction, random);
+  const vec3 p = ray.at(hit.t);
+  const auto aim = aim_at_surface(scene_, aim_, p, hit, ray.direction);
+  SurfaceSample s;
+  if (kernel::uniform_from_bits(random.next_bits()) < aim.chance()) {
+    const auto [u, turns] = random.next_pair();
+    s.direction = aim.draw(u * aim.chance(), turns);
+    s.weight = eval_surface(scene_, hit, ray.direction, s.direction, s.pdf);
+  } else {
+    s = sample_surface(scene_, hit, ray.direction, random);
+    if (!(s.pdf > 0)) {
+      s.weight = (1 / (1 - aim.chance())) * s.weight;
+      return s;
+    }
+    s.weight = s.pdf * s.weight;
+  }
+  s.pdf = aim.density(s.direction, s.pdf);
+  s.weight = (1 / s.pdf) * s.weight;
+  return s;
 }
 
 void VolpathIntegrator::send_shadow_ray(std::uint32_t path, const Ray& ray, const Spectrum& value) {
@@ -388,6 +438,7 @@ void VolpathIntegrator::gather_at_surface(std::uint32_t path, const SurfaceHit& 
   const LightSample s = sample_light(scene_, scene_.lights[i], p, &hit.shading_normal, random);
   float density = 0;
   const Spectrum f = eval_surface(scene_, hit, ray.direction, s.ray.direction, density);
+  density = aim_at_surface(scene_, aim_, p, hit, ray.direction).density(s.ray.direction, density);
   const float light_density = all_lights_.chance[i] * s.pdf;
   const float share = s.pdf > 0 ? light_density / (light_density + density) : 1;
   send_shadow_ray(path, started_at(leave_surface(p, hit.normal, hit.t), s.ray),
@@ -415,7 +466,9 @@ void VolpathIntegrator::answer_requests(const ScatterJob& job, std::uint32_t cou
     const LightSample s = sample_light(scene_, scene_.lights[i], p, nullptr, random);
     const float phase = phase_eval(medium, std::clamp(dot(s.ray.direction, direction), -1.0f, 1.0f));
     const float light_density = table.chance[i] * s.pdf;
-    const float share = s.pdf > 0 ? light_density / (light_density + phase) : 1;
+    const auto phase_towards = [&](vec3 to) { return phase_eval(medium, std::clamp(dot(to, direction), -1.0f, 1.0f)); };
+    const float density = AimFrom(aim_, p, phase_towards).density(s.ray.direction, phase);
+    const float share = s.pdf > 0 ? light_density / (light_density + density) : 1;
     const Spectrum worth{{request.value[0], request.value[1], request.value[2]}};
     send_shadow_ray(path, s.ray, (share * phase / table.chance[i]) * worth * s.value);
   }

@@ -17,6 +17,7 @@
 #include "render/paths.h"
 #include "render/sample_points.h"
 #include "render/scatter.h"
+#include "render/surfaces.h"
 
 namespace brume {
 
@@ -71,12 +72,15 @@ class VolpathIntegrator {
   void gather_shadow_rays();
   void finish_paths();
 
+  SurfaceSample scatter_at_surface(std::uint32_t path, const SurfaceHit& hit, RandomStream& random) const;
   Ray ray_of(std::uint32_t path) const;
   float rescale_mean(std::uint32_t path) const;
 
   const CompiledScene& scene_;
   const Intersector& intersector_;
   const Filter& filter_;
+  const Aim aim_;
+  const int last_depth_;  // paths that have been scattered more often meet no light any more
   MediumTasks media_, shadow_media_;
   ColumnMemory memory_;
   PathColumns paths_;

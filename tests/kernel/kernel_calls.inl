@@ -50,6 +50,20 @@ inline void call_box_span(const F* in, F* out, const TestGrid&) {
   out[3] = s.t_enter;
   out[4] = s.t_length;
 }
+// About the axis in[0..2], which is made a unit vector; in[3] and in[4] are in [0, 1).
+inline void call_directions(const F* in, F* out, const TestGrid&) {
+  const vec3 axis = normalize(call_vec3(in));
+  const vec3 all[] = {direction_at_cosine(axis, 2.0f * in[3] - 1.0f, in[4]), aimed_direction(axis, in[3], in[4])};
+  for (const vec3& direction : all) {
+    *out++ = direction.x;
+    *out++ = direction.y;
+    *out++ = direction.z;
+  }
+}
+inline void call_aimed_density(const F* in, F* out, const TestGrid&) {
+  out[0] = aimed_density(normalize(call_vec3(in)), normalize(call_vec3(in + 3)));
+}
+inline void call_aimed_strength(const F* in, F* out, const TestGrid&) { out[0] = aimed_strength(in[0], in[1], in[2]); }
 // Twelve steps: the cells and where each is left.
 inline void call_dda(const F* in, F* out, const TestGrid&) {
   Dda walk = dda_start(call_vec3(in), call_vec3(in + 3));
@@ -111,25 +125,17 @@ struct KernelCall {
   { #name, inputs, outputs, call_##name }
 #define PHASE(name) CALL(name##_eval, 5, 1), CALL(name##_sample, 5, 1), CALL(name##_mean_cosine, 4, 1),
 constexpr KernelCall kernel_calls[] = {
-    CALL(log_natural, 1, 1),
-    CALL(exp_natural, 1, 1),
-    CALL(sincos_turns, 1, 2),
-    CALL(pow_positive, 2, 1),
-    CALL(beer_lambert, 1, 1),
-    CALL(mean_transmittance, 1, 1),
-    CALL(march_position, 6, 1),
-    CALL(random_bits, 4, 2),
-    CALL(box_clip, 14, 3),
-    CALL(box_span, 12, 5),
-    CALL(dda, 6, 48),
-    CALL(grid_nearest, 3, 1),
-    CALL(grid_linear, 3, 1),
-    CALL(cell_mean_linear, 7, 1),
-    CALL(sobol_pair, 6, 2),
-    CALL(atan_turns, 1, 1),
-    CALL(random_words, 4, 4),
-    CALL(majorant_walk, 6, 24),
-    CALL(grid_stochastic, 5, 1),
+    CALL(log_natural, 1, 1),      CALL(exp_natural, 1, 1),
+    CALL(sincos_turns, 1, 2),     CALL(pow_positive, 2, 1),
+    CALL(beer_lambert, 1, 1),     CALL(mean_transmittance, 1, 1),
+    CALL(march_position, 6, 1),   CALL(random_bits, 4, 2),
+    CALL(box_clip, 14, 3),        CALL(box_span, 12, 5),
+    CALL(directions, 5, 6),       CALL(aimed_density, 6, 1),
+    CALL(aimed_strength, 3, 1),   CALL(dda, 6, 48),
+    CALL(grid_nearest, 3, 1),     CALL(grid_linear, 3, 1),
+    CALL(cell_mean_linear, 7, 1), CALL(sobol_pair, 6, 2),
+    CALL(atan_turns, 1, 1),       CALL(random_words, 4, 4),
+    CALL(majorant_walk, 6, 24),   CALL(grid_stochastic, 5, 1),
 #include "kernel/phase_list.inl"
 };
 #undef PHASE

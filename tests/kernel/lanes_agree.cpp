@@ -103,6 +103,9 @@ std::map<std::string, Agreement, std::less<>> agreements() {
                        }};
   all["box_clip"] = {0, 0, box_argument};
   all["box_span"] = {2, 1e-5, box_argument};
+  all["directions"] = {8, 4e-7, [](int n, int a) { return uniform(n, a, a < 3 ? -1 : 0, 1); }};
+  all["aimed_density"] = {64, 1e-6, range(-1, 1)};
+  all["aimed_strength"] = {2, 0, range(0.1f, 2)};
   all["dda"] = {0, 0, inside_argument};
   all["majorant_walk"] = {0, 0, inside_argument};
   all["grid_stochastic"] = {2, 0, [](int n, int a) { return a < 3 ? uniform(n, a, -7, 23) : random_word(n, a); }};

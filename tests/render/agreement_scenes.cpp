@@ -164,6 +164,13 @@ void add_sets_of_media(std::vector<AgreementScene>& all) {
   s.camera.medium = "fog";
   s.lights = {point_light({1, 1, 1}, 5), point_light({-1, 0, 1}, 2)};
   all.push_back({"fog_everywhere", s});
+  // Paths are aimed at lamps within fog, from media of every kind and from surfaces, and meet other lights besides.
+  s = view_of({with_phase(fog, "henyey_greenstein", {0.4f}), a},
+              {free_volume("a"), box_shape({-5, -2, -6}, {5, 4, 5}, "fog"), ground(),
+               emitter(sphere_shape({-1.5, 1.2, -0.5}, 0.4, ""), 3)});
+  s.lights = {sky(0.2f), point_light({1.5, 0.5, -1.5}, 1), point_light({-1.6, -0.5, 0.5}, 2),
+              point_light({1, 20, 0}, 50), distant_light({1, 2, -1}, 0.5f)};
+  all.push_back({"lamps_in_fog", s});
   s = view_of({fog, ball}, {sphere_shape({0, 0, 0}, 3, "fog"), sphere_shape({0.4, 0, 0}, 1, "ball", "fog"),
                             octahedron(0.5, "", "ball")});
   s.lights.push_back(point_light({-6, 3, -1}, 60));
