@@ -37,6 +37,11 @@ inline float max_value(const Spectrum& s) {
   for (int c = 1; c < channel_count; ++c) m = s[c] > m ? s[c] : m;
   return m;
 }
+inline float sum(const Spectrum& s) {
+  float total = 0;
+  for (int c = 0; c < channel_count; ++c) total += s[c];
+  return total;
+}
 inline double mean(const Spectrum& s) {
   double sum = 0;
   for (int c = 0; c < channel_count; ++c) sum += static_cast<double>(s[c]);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "kernel/scalar.h"
 #include "render/medium_tasks.h"
 #include "render/ray_batch.h"
 
@@ -16,6 +17,7 @@ constexpr int first_point_of_event[sobol_events] = {0, 6, 10};
 constexpr int placement_point = 4;  // two more for the first event: where along the flight light is gathered
 
 struct PathColumns {
+  explicit PathColumns(ColumnMemory& memory);
   RayColumns ray;  // t_max = 0: the path has ended
   FlightColumns flight;
   // What radiance from ahead is worth in each channel, over the density of the path if the hero had been the only
@@ -38,9 +40,30 @@ struct PathColumns {
 // A shadow ray carries value[c] to the path `path` if nothing is in its way, nor in the way of its lead: the stretch of
 // a flight that comes before it, where t_max is not 0.
 struct ShadowColumns {
+  explicit ShadowColumns(ColumnMemory& memory);
   RayColumns ray, lead;
   float* value[3] = {};
   std::uint32_t* path = nullptr;
 };
+
+inline kernel::vec3 at(float* const* columns, std::uint32_t i) { return {columns[0][i], columns[1][i], columns[2][i]}; }
+
+inline void set(float* const* columns, std::uint32_t i, kernel::vec3 v) {
+  columns[0][i] = v.x;
+  columns[1][i] = v.y;
+  columns[2][i] = v.z;
+}
+
+inline Spectrum spectrum_at(float* const* columns, std::uint32_t i) {
+  return {{columns[0][i], columns[1][i], columns[2][i]}};
+}
+
+inline void set(float* const* columns, std::uint32_t i, const Spectrum& s) {
+  for (int c = 0; c < 3; ++c) columns[c][i] = s[c];
+}
+
+inline void add(float* const* columns, std::uint32_t i, const Spectrum& s) {
+  for (int c = 0; c < 3; ++c) columns[c][i] += s[c];
+}
 
 }  // namespace brume

@@ -12,12 +12,6 @@ using kernel::vec3;
 
 namespace {
 
-float sum(const Spectrum& s) {
-  float total = 0;
-  for (int c = 0; c < channel_count; ++c) total += s[c];
-  return total;
-}
-
 // The distance to the next event of a Poisson process of rate `rate`.
 float exponential(float rate, RandomStream& random) { return -kernel::log_natural(1 - random.next()) / rate; }
 

@@ -2,17 +2,10 @@
 #pragma once
 
 #include "render/aim.h"
+#include "render/light_table.h"
 #include "render/paths.h"
 
 namespace brume {
-
-// A light that is a point or a direction.
-struct DeltaLight {
-  bool is_point;   // else distant
-  float place[3];  // the point, or the direction towards the light
-  float value[3];  // intensity, or irradiance of a facing surface
-  float pick[2];   // chosen for numbers in [pick[0], pick[1])
-};
 
 // A collision that chose a light of another kind.
 struct LightRequest {

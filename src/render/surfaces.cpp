@@ -8,12 +8,6 @@ using kernel::vec3;
 
 namespace {
 
-float sum(const Spectrum& s) {
-  float total = 0;
-  for (int c = 0; c < channel_count; ++c) total += s[c];
-  return total;
-}
-
 // The chance that a path takes the mirror of a Blinn-Phong material.
 float mirror_chance(const CompiledMaterial& m) {
   const float mirror = sum(m.mirror), matt = sum(m.diffuse + m.specular);

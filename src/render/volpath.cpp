@@ -20,27 +20,6 @@ constexpr std::uint32_t path_count = 1024;
 constexpr std::uint32_t shadow_room = 2 * path_count;
 constexpr std::uint32_t idle = 0xffffffff;  // the target of a path that is none
 
-// Counters of random numbers, apart from those of tracking (from 0) and of points (0x40000000).
-std::uint32_t hashed_numbers(std::uint32_t depth) { return 0x20000000u + depth * 256; }
-
-vec3 at(float* const* columns, std::uint32_t i) { return {columns[0][i], columns[1][i], columns[2][i]}; }
-
-void set(float* const* columns, std::uint32_t i, vec3 v) {
-  columns[0][i] = v.x;
-  columns[1][i] = v.y;
-  columns[2][i] = v.z;
-}
-
-Spectrum spectrum_at(float* const* columns, std::uint32_t i) { return {{columns[0][i], columns[1][i], columns[2][i]}}; }
-
-void set(float* const* columns, std::uint32_t i, const Spectrum& s) {
-  for (int c = 0; c < 3; ++c) columns[c][i] = s[c];
-}
-
-void add(float* const* columns, std::uint32_t i, const Spectrum& s) {
-  for (int c = 0; c < 3; ++c) columns[c][i] += s[c];
-}
-
 // Whether a path can meet light by itself, without a shadow ray.
 bool paths_meet_light(const CompiledScene& scene) {
   using Kind = CompiledLight::Kind;
@@ -50,40 +29,6 @@ bool paths_meet_light(const CompiledScene& scene) {
                      [](const CompiledMedium& m) { return !is_zero(m.emission); });
 }
 
-// The lights for which is_in(light), points and directions first.
-template <class Predicate>
-LightTable make_light_table(const CompiledScene& scene, Predicate is_in) {
-  using Kind = CompiledLight::Kind;
-  const auto is_delta = [](const CompiledLight& l) { return l.kind == Kind::point || l.kind == Kind::distant; };
-  LightTable table;
-  table.chance.assign(scene.lights.size(), 0);
-  float total = 0;
-  for (const bool delta : {true, false})
-    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-      const CompiledLight& light = scene.lights[i];
-      if (!is_in(light) || is_delta(light) != delta || !(light.chance > 0)) continue;
-      table.lights.push_back(static_cast<int>(i));
-      total += light.chance;
-    }
-  float cumulated = 0;
-  for (const int i : table.lights) {
-    const CompiledLight& light = scene.lights[static_cast<std::size_t>(i)];
-    const float begin = table.cdf.empty() ? 0 : table.cdf.back();
-    cumulated += light.chance / total;
-    table.cdf.push_back(i == table.lights.back() ? 1 : std::min(cumulated, 1.0f));
-    table.chance[static_cast<std::size_t>(i)] = table.cdf.back() - begin;
-    if (!is_delta(light)) continue;
-    const bool is_point = light.kind == Kind::point;
-    const Vector3& place = is_point ? light.position : light.direction_to;
-    table.delta_lights.push_back(
-        {is_point,
-         {static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.z)},
-         {light.value[0], light.value[1], light.value[2]},
-         {begin, table.cdf.back()}});
-  }
-  return table;
-}
-
 void set_lights(ScatterJob& job, const LightTable& table) {
   job.lights = table.delta_lights.data();
   job.light_count = static_cast<int>(table.delta_lights.size());
@@ -91,22 +36,7 @@ void set_lights(ScatterJob& job, const LightTable& table) {
   job.pick_end = table.lights.empty() ? 0 : 1;
 }
 
-// The choice of a direction from the surface at p, where `direction` comes.
-auto aim_at_surface(const CompiledScene& scene, const Aim& aim, vec3 p, const SurfaceHit& hit, vec3 direction) {
-  return AimFrom(aim, p, [&scene, &hit, direction](vec3 to_light) {
-    float density = 0;
-    eval_surface(scene, hit, direction, to_light, density);
-    return density;
-  });
-}
-
 }  // namespace
-
-int LightTable::pick(float u) const {
-  for (std::size_t i = 0; i < cdf.size(); ++i)
-    if (u < cdf[i]) return lights[i];
-  return -1;
-}
 
 VolpathIntegrator::VolpathIntegrator(const CompiledScene& scene, const Intersector& intersector,
                                      const MediaAlongRay& media, const Filter& filter)
@@ -118,23 +48,11 @@ VolpathIntegrator::VolpathIntegrator(const CompiledScene& scene, const Intersect
       media_(scene, intersector, media),
       shadow_media_(scene, intersector, media),
       memory_(shadow_room),
+      paths_(memory_),
+      shadows_(memory_),
       hits_(path_count),
       requests_(path_count) {
-  paths_.ray = memory_.rays();
-  paths_.flight.t = memory_.floats();
-  paths_.flight.medium = memory_.integers();
-  paths_.flight.passed = memory_.floats();
-  for (auto* columns : {&paths_.flight.weight, &paths_.throughput, &paths_.rescale, &paths_.radiance, &paths_.gathered,
-                        &shadows_.value, &transmittance_})
-    memory_.make_floats(*columns);
-  paths_.direction_density = memory_.floats();
-  paths_.depth = memory_.words();
-  paths_.flight.depth = paths_.depth;
-  paths_.target = memory_.words();
-  for (float*& column : paths_.points) column = memory_.floats();
-  shadows_.ray = memory_.rays();
-  shadows_.lead = memory_.rays();
-  shadows_.path = memory_.words();
+  memory_.make_floats(transmittance_);
   fresh_ = {memory_.words(), memory_.words(), memory_.words()};
   for (float*& column : fresh_points_) column = memory_.floats();
   std::fill_n(paths_.target, path_count, idle);
@@ -254,6 +172,12 @@ void VolpathIntegrator::start_path(std::uint32_t path, std::uint32_t fresh, std:
   paths_.target[path] = target;
 }
 
+RandomStream VolpathIntegrator::random_of(std::uint32_t path) const {
+  const auto width = static_cast<std::uint32_t>(scene_.width);
+  return {scene_, static_cast<int>(paths_.ray.pixel[path] % width), static_cast<int>(paths_.ray.pixel[path] / width),
+          static_cast<int>(paths_.ray.sample[path])};
+}
+
 Ray VolpathIntegrator::ray_of(std::uint32_t path) const {
   return {at(paths_.ray.origin, path), at(paths_.ray.direction, path), paths_.ray.t_max[path]};
 }
@@ -338,70 +262,6 @@ void VolpathIntegrator::see_environment(std::uint32_t path, float share) {
   }
 }
 
-void VolpathIntegrator::meet_surface(std::uint32_t path) {
-  const Ray ray = ray_of(path);
-  const std::int32_t light = scene_.shapes[static_cast<std::size_t>(hits_[path].shape)].light;
-  if (light >= 0) {
-    const auto i = static_cast<std::size_t>(light);
-    const float density = all_lights_.chance[i] * light_pdf(scene_, scene_.lights[i], ray, nullptr, hits_[path]);
-    reach_light(path, emitted_radiance(scene_, hits_[path], ray.direction), density);
-  }
-  paths_.ray.t_max[path] = 0;
-  const std::uint32_t depth = paths_.depth[path];
-  if (static_cast<int>(depth) >= scene_.integrator.max_depth) return;
-
-  const SurfaceHit hit = facing(hits_[path], ray.direction);
-  const Spectrum before = spectrum_at(paths_.throughput, path);
-  gather_at_surface(path, hit, before);
-  if (static_cast<int>(depth) >= last_depth_) return;
-  const auto width = static_cast<std::uint32_t>(scene_.width);
-  RandomStream random(scene_, static_cast<int>(paths_.ray.pixel[path] % width),
-                      static_cast<int>(paths_.ray.pixel[path] / width), static_cast<int>(paths_.ray.sample[path]));
-  const bool has_points = depth < sobol_events;
-  random.skip_to(has_points ? static_cast<std::uint32_t>(first_point_of_event[depth] + 4) / 2 : 0, has_points ? 1 : 0,
-                 hashed_numbers(depth));
-  const SurfaceSample next = scatter_at_surface(path, hit, random);
-  Spectrum throughput = before * next.weight;
-  const float worth = max_value(throughput) / rescale_mean(path), survival = std::min(1.0f, worth / 0.05f);
-  if (!(kernel::uniform_from_bits(random.next_bits()) < survival)) return;
-  set(paths_.throughput, path, (1 / survival) * throughput);
-  const Ray onward = continued(ray, hit, next);
-  set(paths_.ray.origin, path, onward.origin);
-  set(paths_.ray.direction, path, onward.direction);
-  paths_.ray.t_max[path] = far_away;
-  paths_.direction_density[path] = next.pdf > 0 ? next.pdf : -1;
-  paths_.depth[path] = depth + 1;
-  paths_.ray.key[path] = event_key(scene_.seed, depth + 1);
-  paths_.ray.distance_u[path] = depth + 1 < sobol_events ? paths_.points[first_point_of_event[depth + 1]][path]
-                                                         : kernel::uniform_from_bits(random.next_bits());
-}
-
-// Where the path goes on from a surface: as the material samples it, or aimed at a light.
-SurfaceSample VolpathIntegrator::scatter_at_surface(std::uint32_t path, const SurfaceHit& hit,
-                                                    RandomStream& random) const {
-  const Ray ray = ray_of(path);
-  if (aim_.lights.empty() || !scatters_widely(material_at(scene_, hit)))
-    return sample_surface(scene_, hit, ray.direction, random);
-  const vec3 p = ray.at(hit.t);
-  const auto aim = aim_at_surface(scene_, aim_, p, hit, ray.direction);
-  SurfaceSample s;
-  if (kernel::uniform_from_bits(random.next_bits()) < aim.chance()) {
-    const auto [u, turns] = random.next_pair();
-    s.direction = aim.draw(u * aim.chance(), turns);
-    s.weight = eval_surface(scene_, hit, ray.direction, s.direction, s.pdf);
-  } else {
-    s = sample_surface(scene_, hit, ray.direction, random);
-    if (!(s.pdf > 0)) {
-      s.weight = (1 / (1 - aim.chance())) * s.weight;
-      return s;
-    }
-    s.weight = s.pdf * s.weight;
-  }
-  s.pdf = aim.density(s.direction, s.pdf);
-  s.weight = (1 / s.pdf) * s.weight;
-  return s;
-}
-
 void VolpathIntegrator::send_shadow_ray(std::uint32_t path, const Ray& ray, const Spectrum& value) {
   if (is_zero(value)) return;
   make_room_for_shadow_rays(1);
@@ -420,45 +280,18 @@ void VolpathIntegrator::send_shadow_ray(std::uint32_t path, const Ray& ray, cons
   set(shadows_.value, i, value);
 }
 
-// Light from one light at a surface.
-void VolpathIntegrator::gather_at_surface(std::uint32_t path, const SurfaceHit& hit, const Spectrum& throughput) {
-  if (!scatters_widely(material_at(scene_, hit))) return;
-  const std::uint32_t depth = paths_.depth[path];
-  const auto width = static_cast<std::uint32_t>(scene_.width);
-  RandomStream random(scene_, static_cast<int>(paths_.ray.pixel[path] % width),
-                      static_cast<int>(paths_.ray.pixel[path] / width), static_cast<int>(paths_.ray.sample[path]));
-  random.skip_to(static_cast<std::uint32_t>(placement_point + 2) / 2, depth == 0 ? 1 : 0, hashed_numbers(depth) + 128);
-  const float u = depth < sobol_events ? paths_.points[first_point_of_event[depth] + 1][path]
-                                       : kernel::uniform_from_bits(random.next_bits());
-  const int picked = all_lights_.pick(u);
-  if (picked < 0) return;
-  const auto i = static_cast<std::size_t>(picked);
-  const Ray ray = ray_of(path);
-  const vec3 p = ray.at(hit.t);
-  const LightSample s = sample_light(scene_, scene_.lights[i], p, &hit.shading_normal, random);
-  float density = 0;
-  const Spectrum f = eval_surface(scene_, hit, ray.direction, s.ray.direction, density);
-  density = aim_at_surface(scene_, aim_, p, hit, ray.direction).density(s.ray.direction, density);
-  const float light_density = all_lights_.chance[i] * s.pdf;
-  const float share = s.pdf > 0 ? light_density / (light_density + density) : 1;
-  send_shadow_ray(path, started_at(leave_surface(p, hit.normal, hit.t), s.ray),
-                  (share / (all_lights_.chance[i] * rescale_mean(path))) * throughput * f * s.value);
-}
-
 // Light at collisions from lights that are neither points nor directions.
 void VolpathIntegrator::answer_requests(const ScatterJob& job, std::uint32_t count) {
   const CompiledMedium& medium = scene_.media[static_cast<std::size_t>(job.medium)];
   const bool is_placed = medium.grid < 0 && !point_lights_.lights.empty();
   const LightTable& table = is_placed ? other_lights_ : all_lights_;
-  const auto width = static_cast<std::uint32_t>(scene_.width);
   for (std::uint32_t k = 0; k < count; ++k) {
     const LightRequest& request = requests_[k];
     const int picked = table.pick(request.u);
     if (picked < 0) continue;
     const auto i = static_cast<std::size_t>(picked);
     const std::uint32_t path = request.path, depth = paths_.depth[path] - 1;
-    RandomStream random(scene_, static_cast<int>(paths_.ray.pixel[path] % width),
-                        static_cast<int>(paths_.ray.pixel[path] / width), static_cast<int>(paths_.ray.sample[path]));
+    RandomStream random = random_of(path);
     random.skip_to(static_cast<std::uint32_t>(placement_point + 2) / 2, depth == 0 ? 1 : 0,
                    hashed_numbers(depth) + 128);
     const vec3 p(request.position[0], request.position[1], request.position[2]);

@@ -14,6 +14,7 @@
 
 #include "image/film.h"
 #include "image/filter.h"
+#include "render/light_table.h"
 #include "render/paths.h"
 #include "render/sample_points.h"
 #include "render/scatter.h"
@@ -21,16 +22,8 @@
 
 namespace brume {
 
-// Lights that shadow rays go to, each with a chance in proportion to its power.
-struct LightTable {
-  std::vector<DeltaLight> delta_lights;  // the first of `lights`
-  std::vector<int> lights;
-  std::vector<float> cdf;     // of `lights`
-  std::vector<float> chance;  // by light of the scene; 0 for those that are not in the table
-
-  // The light for u in [0, 1), below 0 where there is none.
-  int pick(float u) const;
-};
+// Counters of random numbers, apart from those of tracking (from 0) and of points (0x40000000).
+inline std::uint32_t hashed_numbers(std::uint32_t depth) { return 0x20000000u + depth * 256; }
 
 // One to each worker.
 class VolpathIntegrator {
@@ -74,6 +67,7 @@ class VolpathIntegrator {
 
   SurfaceSample scatter_at_surface(std::uint32_t path, const SurfaceHit& hit, RandomStream& random) const;
   Ray ray_of(std::uint32_t path) const;
+  RandomStream random_of(std::uint32_t path) const;
   float rescale_mean(std::uint32_t path) const;
 
   const CompiledScene& scene_;

@@ -37,22 +37,9 @@ FurnacePaths::FurnacePaths(const CompiledScene& scene)
       intersector_(scene),
       media_along_ray_(scene, intersector_),
       media_(scene, intersector_, media_along_ray_),
-      memory_(path_count) {
-  paths_.ray = memory_.rays();
-  paths_.flight.t = memory_.floats();
-  paths_.flight.medium = memory_.integers();
-  paths_.flight.passed = memory_.floats();
-  for (auto* columns : {&paths_.flight.weight, &paths_.throughput, &paths_.rescale, &paths_.radiance, &shadows_.value})
-    memory_.make_floats(*columns);
-  paths_.direction_density = memory_.floats();
-  paths_.depth = memory_.words();
-  paths_.flight.depth = paths_.depth;
-  paths_.target = memory_.words();
-  for (float*& column : paths_.points) column = memory_.floats();
-  shadows_.ray = memory_.rays();
-  shadows_.lead = memory_.rays();
-  shadows_.path = memory_.words();
-
+      memory_(path_count),
+      paths_(memory_),
+      shadows_(memory_) {
   const CompiledMedium& medium = scene.media.front();
   job_.max_depth = std::numeric_limits<int>::max();
   job_.phase = medium.phase;
