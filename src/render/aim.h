@@ -1,6 +1,6 @@
-// Where paths go on from: by the phase function or the material, or aimed at a point light that shines within a
-// homogeneous medium. Flights that pass such a light closely gather much of its light (kernel/directions.inl), which
-// without aim is met seldom and then all at once.
+// Where paths go on from: by the phase function or the material, or aimed at a point light that shines within a medium.
+// Flights that pass such a light closely gather much of its light (kernel/directions.inl), which without aim is met
+// seldom and then all at once.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ struct Aim {
   float elsewhere = 0;  // radiance that comes from everywhere, about
 };
 
-// The point lights of the scene within homogeneous media.
+// The point lights of the scene within media.
 Aim make_aim(const CompiledScene& scene, const MediaAlongRay& media);
 
 // The choice at the point p. density(direction) is the density, per steradian, of directions that are not aimed.

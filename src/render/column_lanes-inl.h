@@ -35,6 +35,9 @@ HWY_INLINE vec3 select3(B m, vec3 a, vec3 b) {
   return vec3(select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z));
 }
 
+HWY_INLINE vec3 lanes_of(kernel::vec3 v) { return vec3(v.x, v.y, v.z); }
+HWY_INLINE BrickGrid lanes_of(const kernel::BrickGrid& g) { return {g.table, g.bricks, g.table_x, g.table_xy, g.bits}; }
+
 HWY_INLINE std::size_t count_lanes(B m) { return hn::CountTrue(float_tag, m.m); }
 HWY_INLINE B no_lanes() { return F(0.0f) < F(0.0f); }
 

@@ -12,6 +12,16 @@ HWY_BEFORE_NAMESPACE();
 namespace brume {
 namespace HWY_NAMESPACE {
 
+// The stretch of a flight within `near` of a light that is nearest at t = `nearest`, at the distance `distance`.
+struct NearStretch {
+  F begin, length;  // no length: there is none
+};
+HWY_INLINE NearStretch near_stretch(F length, F near_squared, F nearest, F distance) {
+  const F half_chord = sqrt(max(near_squared - distance * distance, F(0.0f)));
+  const F begin = min(max(nearest - half_chord, F(0.0f)), length);
+  return {begin, min(max(nearest + half_chord, F(0.0f)), length) - begin};
+}
+
 struct Place {
   F t, density;
 };
@@ -65,7 +75,7 @@ void place(const ScatterJob& job, const PathColumns& paths, const TrackColumns& 
     const vec3 origin = gather3(paths.ray.origin, path);
     const F t_begin = load_lanes(stretches.t_begin + i);
     const vec3 begin = origin + t_begin * direction;
-    const F length = select(exists, load_lanes(stretches.length + i), F(1.0f));
+    const F whole_length = select(exists, load_lanes(stretches.length + i), F(1.0f));
     F light[3] = {0.0f, 0.0f, 0.0f}, value[3] = {0.0f, 0.0f, 0.0f};
     for (int k = 0; k < job.light_count; ++k) {
       const DeltaLight& l = job.lights[k];
@@ -80,6 +90,10 @@ void place(const ScatterJob& job, const PathColumns& paths, const TrackColumns& 
     const vec3 apart = to_light - nearest * direction;
     // Not exactly ahead, where all places but one would have no density.
     const F distance = max(sqrt(dot(apart, apart)), fma(F(1e-6f), abs(nearest), F(1e-10f)));
+    const NearStretch near = near_stretch(whole_length, job.near_squared, nearest, distance);
+    const B is_near = both(exists, near.length > 0.0f);
+    if (!any(is_near)) continue;
+    const F length = select(is_near, near.length, F(1.0f));
     F sigma = job.sigma_t[0];
     F mean_rescale = 1.0f;
     if (job.is_chromatic) {
@@ -89,8 +103,20 @@ void place(const ScatterJob& job, const PathColumns& paths, const TrackColumns& 
           (gather(paths.rescale[0], path) + gather(paths.rescale[1], path) + gather(paths.rescale[2], path)) *
           F(1.0f / 3);
     }
-    const Place p = draw_place(u, length, sigma, nearest, distance);
-    const vec3 from_place = to_light - p.t * direction;
+    // The transmittance of a grid on the way tells nothing about where in it light comes from.
+    if (job.grid) sigma = 0.0f;
+    const Place p = draw_place(u, length, sigma, nearest - near.begin, distance);
+    const F t = near.begin + p.t;
+    F density = 1.0f;
+    if (job.grid) {
+      const BrickGrid grid = lanes_of(job.grid->density);
+      const vec3 p_index = load3(stretches.entry, i) + t * load3(stretches.direction, i);
+      const vec3 inside = select3(is_near, p_index, vec3(0.0f, 0.0f, 0.0f));
+      const RandomWords tap = random_words(key, pixel, sample, U(0xfffffff1u));
+      density = grid_value(grid, job.grid->linear ? grid_stochastic_place(grid, inside, tap.x, tap.y)
+                                                  : grid_nearest_place(grid, inside));
+    }
+    const vec3 from_place = to_light - t * direction;
     const F squared = max(dot(from_place, from_place), F(1e-20f)), r = sqrt(squared);
     const vec3 shadow_direction = from_place * (F(1.0f) / r);
     const F mu = min(max(dot(shadow_direction, direction), F(-1.0f)), F(1.0f));
@@ -98,19 +124,19 @@ void place(const ScatterJob& job, const PathColumns& paths, const TrackColumns& 
     F carried[3];
     F largest = 0.0f;
     for (int c = 0; c < 3; ++c) {
-      carried[c] = gather(paths.throughput[c], path) * (job.sigma_s[c] * weight) * value[c];
+      carried[c] = gather(paths.throughput[c], path) * (density * job.sigma_s[c] * weight) * value[c];
       largest = max(largest, carried[c]);
     }
-    const B sent = both(both(exists, largest > 0.0f), to_float(as_int(depth)) < F(static_cast<float>(job.max_depth)));
+    const B sent = both(both(is_near, largest > 0.0f), to_float(as_int(depth)) < F(static_cast<float>(job.max_depth)));
     if (!any(sent)) continue;
     const Packing packing = packing_of(sent);
-    const vec3 start = begin + p.t * direction;
+    const vec3 start = begin + t * direction;
     append3(start, packing, shadows.ray.origin, at);
     append3(shadow_direction, packing, shadows.ray.direction, at);
     append(r, packing, shadows.ray.t_max + at);
     append3(origin, packing, shadows.lead.origin, at);
     append3(direction, packing, shadows.lead.direction, at);
-    append(t_begin + p.t, packing, shadows.lead.t_max + at);
+    append(t_begin + t, packing, shadows.lead.t_max + at);
     append3(vec3(carried[0], carried[1], carried[2]), packing, shadows.value, at);
     append(uniform_from_bits(words.z), packing, shadows.ray.distance_u + at);
     append(uniform_from_bits(words.w), packing, shadows.lead.distance_u + at);

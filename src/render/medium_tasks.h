@@ -34,6 +34,12 @@ class MediumTasks {
  public:
   MediumTasks(const CompiledScene& scene, const Intersector& intersector, const MediaAlongRay& media);
 
+  // Null for a homogeneous medium.
+  const TrackedGrid* grid(std::int32_t medium) const {
+    const auto& grid = grids_[static_cast<std::size_t>(medium)];
+    return grid ? &*grid : nullptr;
+  }
+
   // Whether the extinction of any medium differs between channels.
   bool is_chromatic() const { return is_chromatic_; }
 

@@ -24,8 +24,6 @@ struct NewDirection {
   F density, weight;
 };
 
-HWY_INLINE vec3 lanes_of(kernel::vec3 v) { return vec3(v.x, v.y, v.z); }
-
 // What AimFrom of aim.h does, for a phase function.
 template <class Phase>
 HWY_INLINE NewDirection new_direction(const ScatterJob& job, vec4 phase, vec3 p, vec3 direction, F u, F turns) {
@@ -150,6 +148,7 @@ std::uint32_t scatter(const ScatterJob& job, const PathColumns& paths, std::uint
       if (!any(chosen)) continue;
       vec3 to_light(light.place[0], light.place[1], light.place[2]);
       F distance = 1e30f, irradiance = 1 / (light.pick[1] - light.pick[0]);
+      B gathered_here = chosen;
       if (light.is_point) {
         to_light = to_light - p;
         // A collision at the light itself would see infinity.
@@ -157,11 +156,12 @@ std::uint32_t scatter(const ScatterJob& job, const PathColumns& paths, std::uint
         distance = sqrt(squared);
         to_light = to_light * (F(1.0f) / distance);
         irradiance = irradiance / squared;
+        gathered_here = both(chosen, squared >= job.near_squared);
       }
       const F mu = min(max(dot(to_light, direction), F(-1.0f)), F(1.0f));
       const F value = Phase::eval(mu, phase);
       const F survival = min(value * worth * (12.566371f / shadow_roulette_below), F(1.0f));
-      const B sent = both(chosen, n.shadow_roulette < survival);
+      const B sent = both(gathered_here, n.shadow_roulette < survival);
       if (!any(sent)) continue;
       const Packing packing = packing_of(sent);
       const F weight = value * irradiance / (max(survival, F(1e-30f)) * mean_rescale);

@@ -29,11 +29,14 @@ struct ScatterJob {
   const AimedLight* aimed_lights = nullptr;
   int aimed_light_count = 0;
   float elsewhere = 0;
+  // Nearer to a point light than the root of this its light is placed along flights.
+  float near_squared = 0;
   // The medium.
   std::int32_t medium = 0;
   int phase = 0;
   float phase_numbers[4] = {};
-  float sigma_t[3] = {}, sigma_s[3] = {}, emission[3] = {};
+  float sigma_t[3] = {}, sigma_s[3] = {}, emission[3] = {};  // of a grid: at density 1
+  const TrackedGrid* grid = nullptr;                         // none: homogeneous
 };
 
 // Moves the paths that collided with the job's medium to their collisions, adds what is emitted there, sends shadow

@@ -247,16 +247,9 @@ struct Stream {
 
 template <Tracking tracking, bool is_chromatic>
 void run_stream(const TrackedGrid& g, const TrackColumns& tasks, std::uint32_t count, TrackCounts& counts) {
-  const kernel::BrickGrid& d = g.density;
   const kernel::MajorantGrid& m = g.majorants;
-  Stream<tracking, is_chromatic> stream{{d.table, d.bricks, d.table_x, d.table_xy, d.bits},
-                                        {m.cells, m.row, m.layer, m.cells_per_voxel},
-                                        g,
-                                        tasks,
-                                        count,
-                                        counts,
-                                        0,
-                                        {}};
+  Stream<tracking, is_chromatic> stream{
+      lanes_of(g.density), {m.cells, m.row, m.layer, m.cells_per_voxel}, g, tasks, count, counts, 0, {}};
   stream.run();
 }
 

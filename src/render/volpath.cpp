@@ -18,6 +18,7 @@ namespace {
 // Paths in flight: enough to fill the tracking stream many times over, few enough for the second cache.
 constexpr std::uint32_t path_count = 1024;
 constexpr std::uint32_t shadow_room = 2 * path_count;
+constexpr float near_in_free_paths = 1.0f;
 constexpr std::uint32_t idle = 0xffffffff;  // the target of a path that is none
 
 // Whether a path can meet light by itself, without a shadow ray.
@@ -59,6 +60,17 @@ VolpathIntegrator::VolpathIntegrator(const CompiledScene& scene, const Intersect
   make_jobs();
 }
 
+// Per world unit, at the most.
+float VolpathIntegrator::max_extinction(const CompiledMedium& medium) const {
+  const float density = medium.grid < 0 ? 1 : scene_.grids[static_cast<std::size_t>(medium.grid)].max_density;
+  return std::max(max_value(medium.sigma_t) * density, 1e-18f);
+}
+
+// Those whose light is gathered where paths collide with the medium.
+const LightTable& VolpathIntegrator::lights_at_collisions(const CompiledMedium& medium) const {
+  return medium.grid < 0 ? other_lights_ : all_lights_;
+}
+
 void VolpathIntegrator::make_jobs() {
   using Kind = CompiledLight::Kind;
   const auto is_left_to_paths = [](const CompiledLight& l) { return l.kind == Kind::infinite; };
@@ -69,7 +81,7 @@ void VolpathIntegrator::make_jobs() {
       make_light_table(scene_, [&](const CompiledLight& l) { return !is_left_to_paths(l) && !is_point(l); });
   for (std::size_t i = 0; i < scene_.media.size(); ++i) {
     const CompiledMedium& medium = scene_.media[i];
-    const bool places = medium.grid < 0 && !point_lights_.lights.empty();
+    const bool has_grid = medium.grid >= 0, places = !point_lights_.lights.empty();
     ScatterJob job;
     job.max_depth = scene_.integrator.max_depth;
     job.last_depth = last_depth_;
@@ -86,14 +98,20 @@ void VolpathIntegrator::make_jobs() {
       job.emission[c] = medium.emission[c];
     }
     std::copy(medium.phase_prepared.begin(), medium.phase_prepared.end(), job.phase_numbers);
+    job.grid = media_.grid(job.medium);
     if (places) {
+      // Through a homogeneous medium all light of points is placed; in a grid, whose density is known only where it is
+      // looked up, that near them.
+      const float near = has_grid ? near_in_free_paths / max_extinction(medium) : 1e18f;
+      job.near_squared = near * near;
       placement_jobs_.push_back(job);
       set_lights(placement_jobs_.back(), point_lights_);
     }
-    set_lights(job, places ? other_lights_ : all_lights_);
+    set_lights(job, lights_at_collisions(medium));
     // Chances are other ones here than at surfaces; multiple importance sampling sees their ratio in the density.
     for (std::size_t k = 0; k < scene_.lights.size(); ++k)
-      if (other_lights_.chance[k] > 0 && places) job.density_scale = all_lights_.chance[k] / other_lights_.chance[k];
+      if (places && !has_grid && other_lights_.chance[k] > 0)
+        job.density_scale = all_lights_.chance[k] / other_lights_.chance[k];
     jobs_.push_back(job);
   }
 }
@@ -283,8 +301,7 @@ void VolpathIntegrator::send_shadow_ray(std::uint32_t path, const Ray& ray, cons
 // Light at collisions from lights that are neither points nor directions.
 void VolpathIntegrator::answer_requests(const ScatterJob& job, std::uint32_t count) {
   const CompiledMedium& medium = scene_.media[static_cast<std::size_t>(job.medium)];
-  const bool is_placed = medium.grid < 0 && !point_lights_.lights.empty();
-  const LightTable& table = is_placed ? other_lights_ : all_lights_;
+  const LightTable& table = lights_at_collisions(medium);
   for (std::uint32_t k = 0; k < count; ++k) {
     const LightRequest& request = requests_[k];
     const int picked = table.pick(request.u);

@@ -49,6 +49,8 @@ class VolpathIntegrator {
     std::uint32_t next = 0;  // sample to be started
   };
 
+  float max_extinction(const CompiledMedium& medium) const;
+  const LightTable& lights_at_collisions(const CompiledMedium& medium) const;
   void make_jobs();
   void start_paths(Tile& tile);
   void start_path(std::uint32_t path, std::uint32_t fresh, std::uint32_t target);
