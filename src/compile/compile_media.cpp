@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "compile/compile.h"
 #include "compile/compiler.h"
@@ -53,7 +54,6 @@ CompiledGrid compile_grid(VolumeGrid grid, bool linear, int threads) {
   CompiledGrid c;
   c.table_x = static_cast<std::uint32_t>(grid.bricks.bricks[0] + 2);
   c.table_xy = c.table_x * static_cast<std::uint32_t>(grid.bricks.bricks[1] + 2);
-  c.max_density = 1.000001f * grid.bricks.max_value;
   c.bits = static_cast<std::uint32_t>(grid.bricks.storage);
   for (int axis = 0; axis < 3; ++axis) {
     c.bounds_lo[static_cast<std::size_t>(axis)] = static_cast<float>(support.lo[axis]);
@@ -64,6 +64,8 @@ CompiledGrid compile_grid(VolumeGrid grid, bool linear, int threads) {
   c.majorant_layer = c.majorant_row * static_cast<std::uint32_t>(majorants.size[1]);
   c.majorant_cells_per_voxel = 1 / static_cast<float>(majorants.edge);
   c.majorants = std::move(majorants.cells);
+  // Not what the grid was made of: a stored value may be half a step above. Floats from 0 up order as their bits do.
+  c.max_density = std::bit_cast<float>(*std::max_element(c.majorants.begin(), c.majorants.end()));
   c.table = std::move(grid.bricks.table);
   c.words = std::move(grid.bricks.words);
   return c;

@@ -183,5 +183,14 @@ TEST(Emission, SlabOfOneMeanFreePath) {
   EXPECT_NEAR(radiance(s), 3 * (1 - 0.36787944f), 1e-5);
 }
 
+// A chord through an absorbing sphere of radius 5 that emits: Le (1 - e^-chord).
+TEST(Emission, ChordOfASphere) {
+  SceneDescription s = needle_scene({3, 0, -20});
+  s.media = {homogeneous_medium("fire", 1, 0)};
+  s.media[0].emission = constant_spectrum(1);
+  s.shapes = {sphere_shape({0, 0, 0}, 5, "fire")};
+  EXPECT_NEAR(radiance(s), 1 - std::exp(-8), 1e-5);
+}
+
 }  // namespace
 }  // namespace brume

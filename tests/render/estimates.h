@@ -1,6 +1,9 @@
 // Monte Carlo means of scenes of one pixel, judged by their own standard errors.
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "render/scenes.h"
 
 namespace brume {
@@ -9,15 +12,30 @@ struct Estimate {
   double mean, standard_error;
 };
 
-// The mean of `samples` independent samples of the scene's pixel, in one channel.
-Estimate estimate(const SceneDescription& scene, int samples, int channel = 0);
+// The means of `samples` independent samples of the scene's pixel, by channel.
+std::array<Estimate, channel_count> estimates(const SceneDescription& scene, int samples);
+inline Estimate estimate(const SceneDescription& scene, int samples, int channel = 0) {
+  return estimates(scene, samples)[static_cast<std::size_t>(channel)];
+}
+
+// What a channel must show, and how far the number may be off by its own rounding.
+struct Expected {
+  double value, rounding;
+};
 
 // |mean - expected| <= 4 standard errors + rounding, with as many samples as bring the standard error to
-// `relative_error` of the expected value (ten times that under sanitizers, which look for other faults). Prints mean,
-// error, expected and z.
-void expect_estimate(const SceneDescription& scene, double expected, double rounding, double relative_error);
+// `relative_error` of the expected value (ten times that under sanitizers, which look for other faults), in the first
+// channels of the scene. Prints mean, error, expected and z.
+void expect_estimates(const SceneDescription& scene, const std::vector<Expected>& expected, double relative_error);
+inline void expect_estimate(const SceneDescription& scene, double expected, double rounding, double relative_error) {
+  expect_estimates(scene, {{expected, rounding}}, relative_error);
+}
 
-// A scene with a planted fault: its mean stands at least 8 standard errors from `expected`.
-void expect_rejected(const SceneDescription& scene, double expected);
+// A scene with a planted fault: a mean stands at least 8 standard errors and the rounding from what is expected, at a
+// standard error that is no smaller than what is asked for.
+void expect_rejected(const SceneDescription& scene, const std::vector<Expected>& expected, double relative_error);
+inline void expect_rejected(const SceneDescription& scene, double expected) {
+  expect_rejected(scene, {{expected, 0}}, 1e-3);
+}
 
 }  // namespace brume
