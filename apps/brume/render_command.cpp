@@ -18,7 +18,7 @@ namespace {
 constexpr int exit_interrupted = 130;  // what shells give for a program that SIGINT ended
 
 const char* const help_text =
-    R"(Usage: brume SCENE|VOLUME [options]     render a scene (.pbrt) or a volume (.vdb, .nvdb)
+    R"(Usage: brume SCENE|VOLUME [options]     render a scene (.pbrt) or a volume (.vdb, .nvdb, .vol)
        brume --example [options]         render the built-in example, a cloud over a ground
        brume info FILE                   show what a scene, a volume or a picture holds
        brume compare A B [REF]           how far two pictures are apart

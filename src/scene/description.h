@@ -81,7 +81,7 @@ struct UniformGridMedium {
   std::vector<float> density;  // x fastest
 };
 
-// Type "vdb" or "nanovdb": a grid from a file, read when the scene is compiled.
+// Type "vdb", "nanovdb" or "vol": a grid from a file (its suffix says of which kind), read when the scene is compiled.
 struct FileMedium {
   std::string filename;  // resolved
   std::string grid;      // "" chooses

@@ -139,7 +139,7 @@ void Reader::make_named_medium() {
     messages_.warning(directive_.place, "the medium type \"heterogeneous\" is now called \"uniformgrid\"");
     type = "uniformgrid";
   }
-  const std::vector<std::string_view> types = {"homogeneous", "uniformgrid", "nanovdb", "vdb", "procedural"};
+  const std::vector<std::string_view> types = {"homogeneous", "uniformgrid", "nanovdb", "vdb", "vol", "procedural"};
   if (std::find(types.begin(), types.end(), type) == types.end())
     unknown_type(p.place_of(ParameterType::string, "type"), "medium type", type, types, {"rgbgrid", "cloud"});
 

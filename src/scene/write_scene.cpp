@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "base/file.h"
 #include "kernel/phase_table.h"
 #include "scene/read_scene.h"
 
@@ -162,7 +163,8 @@ class Writer {
     list("\"float density\"", grid.density);
   }
   void medium_kind(const FileMedium& file) {
-    line("  \"string type\" \"vdb\" \"string filename\" {}", quoted(file.filename));
+    line("  \"string type\" \"{}\" \"string filename\" {}", suffix(file.filename) == ".vol" ? "vol" : "vdb",
+         quoted(file.filename));
     if (!file.grid.empty()) line("  \"string gridname\" {}", quoted(file.grid));
   }
   void medium_kind(const CloudMedium& cloud) {
