@@ -167,9 +167,13 @@ class Writer {
          quoted(file.filename));
     if (!file.grid.empty()) line("  \"string gridname\" {}", quoted(file.grid));
   }
-  void medium_kind(const CloudMedium& cloud) {
-    line("  \"string type\" \"procedural\" \"string kind\" \"cloud\" \"integer size\" {} \"integer seed\" {}",
-         cloud.size, cloud.seed);
+  void medium_kind(const ProceduralMedium& medium) {
+    const Procedural& p = medium.procedural;
+    line("  \"string type\" \"procedural\" \"string kind\" \"{}\" \"integer size\" {} \"integer seed\" {}",
+         p.table().name, p.size, p.seed);
+    for (std::size_t i = 0; i < p.values.size(); ++i)
+      if (const std::string_view name = p.table().parameters[i].name; !name.empty())
+        line("  \"float {}\" {}", name, p.values[i]);
   }
 
   void light(const LightDescription& l) {

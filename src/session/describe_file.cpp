@@ -39,7 +39,9 @@ struct DescribeMediumKind {
   std::string operator()(const FileMedium& m) const {
     return fmt::format("grid {} of {}", m.grid.empty() ? "by default" : m.grid, m.filename);
   }
-  std::string operator()(const CloudMedium& m) const { return fmt::format("procedural cloud of {} voxels", m.size); }
+  std::string operator()(const ProceduralMedium& m) const {
+    return fmt::format("procedural {} of {} voxels", m.procedural.table().name, m.procedural.size);
+  }
 };
 
 struct DescribeLight {
