@@ -21,6 +21,7 @@ const char* const help_text =
     R"(Usage: brume SCENE|VOLUME [options]     render a scene (.pbrt) or a volume (.vdb, .nvdb, .vol)
        brume --example [options]         render the built-in example, a cloud over a ground
        brume info FILE                   show what a scene, a volume or a picture holds
+       brume make KIND -o FILE.vdb       make a cloud, smoke, fog or fire
        brume compare A B [REF]           how far two pictures are apart
        brume bench                       how fast this machine is
 
