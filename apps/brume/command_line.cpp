@@ -82,9 +82,9 @@ std::pair<std::string, double> parse_setting(const std::string& option, const st
 void show_parameters(const std::vector<brume::ParameterInfo>& parameters, const char* indent) {
   for (const brume::ParameterInfo& p : parameters) {
     char range[64];
-    std::snprintf(range, sizeof range, "%g to %g%s%s", p.lo, p.hi, p.unit == "1" ? "" : " ",
-                  p.unit == "1" ? "" : p.unit.c_str());
-    std::printf("%s%-11s %-14s default %-5g %s\n", indent, p.name.c_str(), range, p.fallback, p.meaning.c_str());
+    std::snprintf(range, sizeof range, p.ends_included ? "%g to %g%s%s" : "above %g, below %g%s%s", p.lo, p.hi,
+                  p.unit == "1" ? "" : " ", p.unit == "1" ? "" : p.unit.c_str());
+    std::printf("%s%-11s %-17s default %-5g %s\n", indent, p.name.c_str(), range, p.fallback, p.meaning.c_str());
   }
 }
 

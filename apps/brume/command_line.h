@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "brume/make.h"
+#include "brume/parameter.h"
 
 // Arguments that make no sense; what() is ready to be shown.
 class UsageError : public std::runtime_error {

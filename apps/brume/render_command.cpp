@@ -22,6 +22,7 @@ const char* const help_text =
        brume --example [options]         render the built-in example, a cloud over a ground
        brume info FILE                   show what a scene, a volume or a picture holds
        brume make KIND -o FILE.vdb       make a cloud, smoke, fog or fire
+       brume phase [NAME]                list the phase functions, or show one
        brume compare A B [REF]           how far two pictures are apart
        brume bench                       how fast this machine is
 
@@ -46,8 +47,7 @@ A volume on its own is framed, lit by sun and sky and scaled to a stated optical
 Ctrl-C saves what is rendered so far; a second Ctrl-C ends at once.
 
   brume smoke.vdb -o smoke.png -o smoke.exr
-  brume scene.pbrt --spp 64 --resolution 1280x720
-  brume smoke.vdb --write-scene smoke.pbrt)";
+  brume scene.pbrt --spp 64 --resolution 1280x720)";
 
 struct Arguments {
   std::string file, grid, write_scene;

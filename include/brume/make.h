@@ -2,17 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
-namespace brume {
+#include "brume/parameter.h"
 
-// A parameter of a kind of procedural volume or of a phase function, from lo to hi.
-struct ParameterInfo {
-  std::string name, meaning, unit;
-  double lo = 0, hi = 0, fallback = 0;
-};
+namespace brume {
 
 struct VolumeKindInfo {
   std::string name, meaning;
@@ -23,12 +18,12 @@ struct VolumeKindInfo {
 std::vector<VolumeKindInfo> volume_kinds();
 
 struct VolumeRecipe {
-  std::string kind;                          // a name of volume_kinds()
-  int size = 128;                            // voxels along the longest side, 8 to 2048
-  std::uint32_t seed = 0;                    // which one of the kind
-  std::map<std::string, double> parameters;  // those left out have their usual values
-  bool half = false;                         // 16-bit floats in the file
-  int threads = 0;                           // 0: one per core; the file is the same for any number
+  std::string kind;            // a name of volume_kinds()
+  int size = 128;              // voxels along the longest side, 8 to 2048
+  std::uint32_t seed = 0;      // which one of the kind
+  ParameterValues parameters;  // those left out have their usual values
+  bool half = false;           // 16-bit floats in the file
+  int threads = 0;             // 0: one per core; the file is the same for any number
 };
 
 // Makes a volume and writes it to a .vdb file, whole or not at all: grid "density" and, for a fire, "temperature" in

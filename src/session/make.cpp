@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/file.h"
 #include "brume/scene.h"
 #include "session/errors.h"
+#include "session/named_parameters.h"
 #include "session/version.h"
 #include "volume/procedural.h"
 #include "volume/write_vdb.h"
@@ -16,43 +16,25 @@ namespace brume {
 
 namespace {
 
-// "; did you mean NAME?", or the names.
-std::string advice(const std::string& name, const std::vector<std::string_view>& valid) {
-  const std::string_view nearest = nearest_name(name, valid);
-  return nearest.empty() ? fmt::format("; known are {}", fmt::join(valid, ", "))
-                         : fmt::format("; did you mean {}?", nearest);
-}
-
-ProceduralName find_kind(const std::string& name) {
-  std::vector<std::string_view> names;
-  for (const ProceduralKind& kind : procedural_kinds) names.push_back(kind.name);
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) throw Error(fmt::format("unknown kind of volume \"{}\"{}", name, advice(name, names)));
-  return static_cast<ProceduralName>(found - names.begin());
-}
-
-void set_parameter(Procedural& procedural, const std::string& name, double value) {
-  const ProceduralKind& kind = procedural.table();
-  std::vector<std::string_view> names;
-  for (const ProceduralParameter& parameter : kind.parameters)
-    if (!parameter.name.empty()) names.push_back(parameter.name);
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end())
-    throw Error(fmt::format("{} has no parameter \"{}\"{}", kind.name, name, advice(name, names)));
-  const auto at = static_cast<std::size_t>(found - names.begin());
-  const ProceduralParameter& parameter = kind.parameters[at];
-  if (!(value >= parameter.lo && value <= parameter.hi))
-    throw Error(
-        fmt::format("{} of {} must be from {} to {}, found {}", name, kind.name, parameter.lo, parameter.hi, value));
-  procedural.values[at] = static_cast<float>(value);
+std::vector<ParameterInfo> parameters_of(const ProceduralKind& kind) {
+  std::vector<ParameterInfo> parameters;
+  for (const ProceduralParameter& p : kind.parameters)
+    if (!p.name.empty())
+      parameters.push_back({std::string(p.name), std::string(p.meaning), std::string(p.unit), p.lo, p.hi,
+                            static_cast<double>(p.fallback), true});
+  return parameters;
 }
 
 Procedural procedural_of(const VolumeRecipe& recipe) {
-  Procedural procedural = usual_procedural(find_kind(recipe.kind), recipe.size, recipe.seed);
+  std::vector<std::string_view> names;
+  for (const ProceduralKind& kind : procedural_kinds) names.push_back(kind.name);
+  const auto kind = static_cast<ProceduralName>(find_name("kind of volume", recipe.kind, names));
+  Procedural procedural = usual_procedural(kind, recipe.size, recipe.seed);
   if (recipe.size < min_procedural_size || recipe.size > max_procedural_size)
     throw Error(fmt::format("a size of {} voxels is out of range: from {} to {}", recipe.size, min_procedural_size,
                             max_procedural_size));
-  for (const auto& [name, value] : recipe.parameters) set_parameter(procedural, name, value);
+  const std::vector<float> values = parameter_values(recipe.kind, parameters_of(procedural.table()), recipe.parameters);
+  std::copy(values.begin(), values.end(), procedural.values.begin());
   return procedural;
 }
 
@@ -60,13 +42,8 @@ Procedural procedural_of(const VolumeRecipe& recipe) {
 
 std::vector<VolumeKindInfo> volume_kinds() {
   std::vector<VolumeKindInfo> kinds;
-  for (const ProceduralKind& kind : procedural_kinds) {
-    VolumeKindInfo& info = kinds.emplace_back(VolumeKindInfo{std::string(kind.name), std::string(kind.meaning), {}});
-    for (const ProceduralParameter& p : kind.parameters)
-      if (!p.name.empty())
-        info.parameters.push_back({std::string(p.name), std::string(p.meaning), std::string(p.unit), p.lo, p.hi,
-                                   static_cast<double>(p.fallback)});
-  }
+  for (const ProceduralKind& kind : procedural_kinds)
+    kinds.push_back({std::string(kind.name), std::string(kind.meaning), parameters_of(kind)});
   return kinds;
 }
 

@@ -24,8 +24,8 @@ TEST(Arguments, HelpFitsOnAScreen) {
   for (const char* word : {"--output",    "--spp",         "--time",        "--cropwindow", "--write-partial-images",
                            "brume bench", "--seed",        "--nthreads",    "--resolution", "--integrator",
                            "--grid",      "--write-scene", "--variance",    "--quiet",      "--version",
-                           "--example",   "brume info",    "brume compare", "brume make",   "BRUME_ISA",
-                           ".pfm"})
+                           "--example",   "brume info",    "brume compare", "brume make",   "brume phase",
+                           "BRUME_ISA",   ".pfm"})
     EXPECT_THAT(outcome.out, HasSubstr(word));
   EXPECT_EQ(run(folder.path(), {"render", "--help"}).out, outcome.out);
   EXPECT_THAT(run(folder.path(), {"info", "--help"}).out, StartsWith("Usage: brume info FILE"));
