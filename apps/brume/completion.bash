@@ -64,10 +64,10 @@ _brume() {
       fi
       ;;
     compare) _brume_files 'exr|pfm' ;;
-    info) _brume_files 'pbrt|vdb|nvdb|vol|exr|pfm' ;;
+    info) _brume_files 'pbrt|pbrt.gz|vdb|nvdb|vol|exr|pfm' ;;
     bench) ;;
     *)
-      _brume_files 'pbrt|vdb|nvdb|vol'
+      _brume_files 'pbrt|pbrt.gz|vdb|nvdb|vol'
       if ((COMP_CWORD == 1)); then
         mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -W 'bench compare info make phase render' -- "$current")
       fi

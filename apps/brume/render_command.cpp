@@ -43,8 +43,8 @@ const char* const help_text =
   --version, --help     BRUME_ISA=avx512|avx2|sse4|scalar in the environment chooses
                         the instruction set that --version shows
 
-A volume on its own is framed, lit by sun and sky and scaled to a stated optical depth.
-Ctrl-C saves what is rendered so far; a second Ctrl-C ends at once.
+A scene may be packed (.pbrt.gz) or come from the standard input (-). A volume on its own is
+framed and lit. Ctrl-C saves what is rendered so far; a second Ctrl-C ends at once.
 
   brume smoke.vdb -o smoke.png -o smoke.exr
   brume scene.pbrt --spp 64 --resolution 1280x720)";

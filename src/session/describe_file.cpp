@@ -109,7 +109,7 @@ std::string describe_file(const std::string& path) {
   return with_public_errors([&] {
     const std::string s = suffix(path);
     if (is_volume_file(path)) return describe_volume(path);
-    if (s == ".pbrt") return describe_scene(path);
+    if (is_scene_file(path)) return describe_scene(path);
     if (s == ".exr" || s == ".pfm") return describe_picture(path);
     throw InputError(path,
                      fmt::format("{}; known are scenes (.pbrt), volumes ({}) and pictures (.exr, .pfm)",

@@ -70,9 +70,9 @@ Scene Scene::load(const std::string& path, std::vector<std::string>& warnings) {
   return with_public_errors([&] {
     const std::string s = suffix(path);
     if (is_volume_file(path)) return frame_volume(path);
-    if (s != ".pbrt")
+    if (!is_scene_file(path))
       throw InputError(path,
-                       fmt::format("{}; scenes are .pbrt files, volumes {}",
+                       fmt::format("{}; scenes are .pbrt or .pbrt.gz files, volumes {}",
                                    s.empty() ? "no suffix" : fmt::format("unknown suffix \"{}\"", s), volume_suffixes));
     return Scene(std::make_unique<Contents>(Contents{read_description(path, warnings), {}, {}}));
   });

@@ -87,7 +87,7 @@ TEST(Arguments, MistakesAreNamedAndNothingIsWritten) {
       {{"a.pbrt", "-o", "missing/x.png"}, "missing/x.png: error: cannot be written: there is no folder missing"},
       {{"missing.pbrt"}, "missing.pbrt: error: cannot be read: No such file"},
       {{"missing.vdb"}, "missing.vdb: error:"},
-      {{"a.obj"}, "scenes are .pbrt files, volumes .vdb, .nvdb or .vol"},
+      {{"a.obj"}, "scenes are .pbrt or .pbrt.gz files, volumes .vdb, .nvdb or .vol"},
       {{"info", "a.obj"}, ".nvdb"},
       {{"info"}, "needs the name of a file"},
   };
