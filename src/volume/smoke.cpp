@@ -17,7 +17,7 @@
 namespace brume {
 namespace {
 
-constexpr float source_height = -0.93f, top_height = 0.78f;
+constexpr float source_height = -0.93f, highest = 0.95f;
 constexpr float side = 0.5f;  // half the width of the box
 
 // A vortex ring about the plume's axis: what is near its core was turned about the core by up to `turn` radians.
@@ -27,23 +27,26 @@ struct Ring {
 
 struct Plume {
   std::uint32_t seed;
-  float turbulence, spread;
+  float turbulence;
+  float widening;  // from the source to the top
+  float top;       // of the column; the rings and eddies carry smoke higher
   std::vector<Ring> rings;
 
   // How far up a height is, 0 to 1.
-  static float rise(float y) { return std::clamp((y - source_height) / (top_height - source_height), 0.0f, 1.0f); }
+  float rise(float y) const { return std::clamp((y - source_height) / (top - source_height), 0.0f, 1.0f); }
 
-  float radius(float t) const { return 0.045f + (0.1f + 0.2f * spread) * std::pow(t, 0.85f); }
+  float radius(float t) const { return 0.045f + widening * std::pow(t, 0.85f); }
 };
 
 Plume make_plume(const Procedural& smoke) {
-  Plume plume{smoke.seed, smoke.values[0], smoke.values[1], {}};
+  const float turbulence = smoke.values[0], widening = 0.1f + 0.2f * smoke.values[1];
+  Plume plume{smoke.seed, turbulence, widening, highest - 0.7f * widening - 0.15f * turbulence, {}};
   std::uint32_t counter = 0;
   const auto between = [&](float lo, float hi) {
     return lo + (hi - lo) * kernel::random_uniform(smoke.seed, 1, 0, counter++);
   };
-  for (float y = source_height + 0.12f; y < top_height;) {
-    const float radius = plume.radius(Plume::rise(y));
+  for (float y = source_height + 0.12f; y < plume.top;) {
+    const float radius = plume.radius(plume.rise(y));
     plume.rings.push_back({y, radius * between(0.7f, 0.95f), radius * between(0.5f, 0.75f), between(1.5f, 3.2f),
                            radius * between(-0.25f, 0.25f), radius * between(-0.25f, 0.25f)});
     y += radius * between(0.9f, 1.5f);
@@ -53,7 +56,7 @@ Plume make_plume(const Procedural& smoke) {
 
 // Where what is at p was before the eddies came, the finest last.
 NoisePoint before_eddies(const Plume& plume, NoisePoint p) {
-  const float grown = 0.25f + 0.75f * Plume::rise(p.y);  // eddies have had less time low down
+  const float grown = 0.25f + 0.75f * plume.rise(p.y);  // eddies have had less time low down
   float frequency = 14, reach = 0.022f * plume.turbulence * grown;
   for (std::uint32_t size = 0; size < 3; ++size) {
     for (int step = 0; step < 3; ++step)
@@ -75,11 +78,11 @@ NoisePoint before_ring(const Ring& ring, NoisePoint p) {
 }
 
 float density_at(const Plume& plume, NoisePoint p) {
-  const float widest = 1.7f * plume.radius(Plume::rise(p.y + 0.2f)) + 0.2f * plume.turbulence;
+  const float widest = 1.7f * plume.radius(plume.rise(p.y + 0.2f)) + 0.2f * plume.turbulence;
   if (p.x * p.x + p.z * p.z > widest * widest) return 0;
   NoisePoint q = before_eddies(plume, p);
   for (const Ring& ring : plume.rings) q = before_ring(ring, q);
-  const float t = Plume::rise(q.y);
+  const float t = plume.rise(q.y);
   const float sway = 0.16f * t;
   q.x -= sway * perlin_noise(plume.seed + 50, {1.3f * q.y, 0.5f, 0});
   q.z -= sway * perlin_noise(plume.seed + 51, {1.3f * q.y, 0.5f, 0});
