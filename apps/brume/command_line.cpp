@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <cstdio>
 #include <numeric>
 
 namespace {
@@ -63,6 +65,27 @@ std::int64_t parse_number(const std::string& option, const std::string& text, st
     throw UsageError(option + ": \"" + text + "\" is not a whole number from " + std::to_string(lo) + " to " +
                      std::to_string(hi));
   return value;
+}
+
+std::pair<std::string, double> parse_setting(const std::string& option, const std::string& text) {
+  const std::size_t equals = text.find('=');
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  if (equals == std::string::npos || equals == 0)
+    throw UsageError(option + "\"" + text + "\" is not NAME=VALUE, as in g=0.5");
+  const auto [at, error] = std::from_chars(text.data() + equals + 1, end, value);
+  if (error != std::errc() || at != end || !std::isfinite(value))
+    throw UsageError(option + "\"" + text + "\": what follows = is not a number");
+  return {text.substr(0, equals), value};
+}
+
+void show_parameters(const std::vector<brume::ParameterInfo>& parameters, const char* indent) {
+  for (const brume::ParameterInfo& p : parameters) {
+    char range[64];
+    std::snprintf(range, sizeof range, p.ends_included ? "%g to %g%s%s" : "above %g, below %g%s%s", p.lo, p.hi,
+                  p.unit == "1" ? "" : " ", p.unit == "1" ? "" : p.unit.c_str());
+    std::printf("%s%-11s %-17s default %-5g %s\n", indent, p.name.c_str(), range, p.fallback, p.meaning.c_str());
+  }
 }
 
 double parse_seconds(const std::string& option, const std::string& text) {

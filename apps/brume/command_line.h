@@ -5,7 +5,10 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "brume/parameter.h"
 
 // Arguments that make no sense; what() is ready to be shown.
 class UsageError : public std::runtime_error {
@@ -18,5 +21,10 @@ void parse(CLI::App& app, std::vector<std::string> arguments);
 
 // A whole number from lo to hi, given for `option`; throws UsageError.
 std::int64_t parse_number(const std::string& option, const std::string& text, std::int64_t lo, std::int64_t hi);
+// NAME=VALUE, a parameter's name and a number; `option` is what it was given for, with a space, or "". Throws
+// UsageError.
+std::pair<std::string, double> parse_setting(const std::string& option, const std::string& text);
+// Shows each parameter on a line that begins with `indent`: name, range, default, meaning.
+void show_parameters(const std::vector<brume::ParameterInfo>& parameters, const char* indent);
 // A number of seconds above 0, given for `option`; throws UsageError.
 double parse_seconds(const std::string& option, const std::string& text);

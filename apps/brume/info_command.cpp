@@ -16,7 +16,7 @@ int info_command(const std::vector<std::string>& arguments) {
   if (help) {
     std::puts(
         "Usage: brume info FILE\n\n"
-        "Shows what a scene (.pbrt), a volume (.vdb, .nvdb) or a picture (.exr, .pfm) holds.");
+        "Shows what a scene (.pbrt), a volume (.vdb, .nvdb, .vol) or a picture (.exr, .pfm) holds.");
     return 0;
   }
   if (file.empty()) throw UsageError("brume info needs the name of a file");

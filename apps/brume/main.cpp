@@ -8,6 +8,8 @@
 #include "command_line.h"
 #include "compare_command.h"
 #include "info_command.h"
+#include "make_command.h"
+#include "phase_command.h"
 #include "render_command.h"
 
 namespace {
@@ -15,8 +17,9 @@ namespace {
 int run(std::vector<std::string> arguments) {
   const std::string command = arguments.empty() ? "" : arguments.front();
   using Command = int (*)(const std::vector<std::string>&);
-  const std::map<std::string, Command> commands = {
-      {"bench", bench_command}, {"compare", compare_command}, {"info", info_command}, {"render", render_command}};
+  const std::map<std::string, Command> commands = {{"bench", bench_command}, {"compare", compare_command},
+                                                   {"info", info_command},   {"make", make_command},
+                                                   {"phase", phase_command}, {"render", render_command}};
   const auto named = commands.find(command);
   if (named == commands.end()) return render_command(arguments);
   arguments.erase(arguments.begin());

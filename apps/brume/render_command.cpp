@@ -18,9 +18,11 @@ namespace {
 constexpr int exit_interrupted = 130;  // what shells give for a program that SIGINT ended
 
 const char* const help_text =
-    R"(Usage: brume SCENE|VOLUME [options]     render a scene (.pbrt) or a volume (.vdb, .nvdb)
+    R"(Usage: brume SCENE|VOLUME [options]     render a scene (.pbrt) or a volume (.vdb, .nvdb, .vol)
        brume --example [options]         render the built-in example, a cloud over a ground
        brume info FILE                   show what a scene, a volume or a picture holds
+       brume make KIND -o FILE.vdb       make a cloud, smoke, fog or fire
+       brume phase [NAME]                list the phase functions, or show one
        brume compare A B [REF]           how far two pictures are apart
        brume bench                       how fast this machine is
 
@@ -41,12 +43,11 @@ const char* const help_text =
   --version, --help     BRUME_ISA=avx512|avx2|sse4|scalar in the environment chooses
                         the instruction set that --version shows
 
-A volume on its own is framed, lit by sun and sky and scaled to a stated optical depth.
-Ctrl-C saves what is rendered so far; a second Ctrl-C ends at once.
+A scene may be packed (.pbrt.gz) or come from the standard input (-). A volume on its own is
+framed and lit. Ctrl-C saves what is rendered so far; a second Ctrl-C ends at once.
 
   brume smoke.vdb -o smoke.png -o smoke.exr
-  brume scene.pbrt --spp 64 --resolution 1280x720
-  brume smoke.vdb --write-scene smoke.pbrt)";
+  brume scene.pbrt --spp 64 --resolution 1280x720)";
 
 struct Arguments {
   std::string file, grid, write_scene;

@@ -7,5 +7,7 @@
 
 #include "brume/bench.h"
 #include "brume/compare.h"
+#include "brume/make.h"
+#include "brume/phase.h"
 #include "brume/render.h"
 #include "brume/scene.h"

@@ -31,8 +31,8 @@ struct SceneOptions {
 
 class Scene {
  public:
-  // Reads a scene (.pbrt) or frames a volume (.vdb, .nvdb). Warnings, ready to be shown, are appended to `warnings`.
-  // Throws Error, as all that follow do.
+  // Reads a scene (.pbrt, .pbrt.gz, or "-" for the standard input) or frames a volume (.vdb, .nvdb, .vol). Warnings,
+  // ready to be shown, are appended to `warnings`. Throws Error, as all that follow do.
   static Scene load(const std::string& path, std::vector<std::string>& warnings);
   // A volume on its own: the grid framed by a camera, lit by sun and sky, its extinction scaled to the optical depth
   // that framing_note() states. `grid` empty: "density", or the only grid that can be rendered.

@@ -115,6 +115,22 @@ void write_bytes(const std::string& path, const std::string& temporary, std::str
   if (!file.close_checked()) throw_unwritable(path, reason(errno));
 }
 
+// `expected` bytes, or what else there is; more than 0.
+std::string read_all(const std::string& name, int descriptor, std::size_t expected) {
+  std::string bytes(expected, '\0');
+  std::size_t size = 0;
+  for (;;) {
+    if (size == bytes.size()) bytes.resize(2 * size);
+    const ssize_t got = read(descriptor, bytes.data() + size, bytes.size() - size);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) throw InputError(name, "cannot be read: " + reason(errno));
+    if (got == 0) break;
+    size += static_cast<std::size_t>(got);
+  }
+  bytes.resize(size);
+  return bytes;
+}
+
 }  // namespace
 
 std::string read_file(const std::string& path) {
@@ -127,19 +143,10 @@ std::string read_file(const std::string& path) {
   if (!file.is_open()) fail(reason(errno));
 
   // One byte more than the size, so that the end shows without growing once more.
-  std::string bytes(static_cast<std::size_t>(status.st_size) + 1, '\0');
-  std::size_t size = 0;
-  for (;;) {
-    if (size == bytes.size()) bytes.resize(2 * size);
-    const ssize_t got = read(file.number(), bytes.data() + size, bytes.size() - size);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) fail(reason(errno));
-    if (got == 0) break;
-    size += static_cast<std::size_t>(got);
-  }
-  bytes.resize(size);
-  return bytes;
+  return read_all(path, file.number(), static_cast<std::size_t>(status.st_size) + 1);
 }
+
+std::string read_standard_input() { return read_all("standard input", STDIN_FILENO, 1 << 16); }
 
 void check_writable(const std::string& path) {
   const std::string target = resolve_links(path), folder = folder_of(target);

@@ -10,6 +10,9 @@ namespace brume {
 // The bytes of a file. Throws InputError where it cannot be read (missing, not a regular file, no permission).
 std::string read_file(const std::string& path);
 
+// All that comes from the standard input. Throws InputError.
+std::string read_standard_input();
+
 // Has `write` make the file under a temporary name beside `path` (ending in ".part"), flushes it to disk and renames it
 // to `path`, so that `path` holds the whole new file or whatever it held before. Where `path` is a symbolic link, the
 // file that it points to is replaced. Where write throws, or anything fails, the temporary file is removed; a failure

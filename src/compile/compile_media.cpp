@@ -19,8 +19,11 @@ std::string grid_key(const MediumDescription& medium) {
   if (const auto* file = std::get_if<FileMedium>(&medium.kind))
     return fmt::format("file {}\n{}\n{} {}", file->filename, file->grid, medium.storage_bits,
                        medium.linear_interpolation);
-  if (const auto* cloud = std::get_if<CloudMedium>(&medium.kind))
-    return fmt::format("cloud {} {} {} {}", cloud->size, cloud->seed, medium.storage_bits, medium.linear_interpolation);
+  if (const auto* made = std::get_if<ProceduralMedium>(&medium.kind)) {
+    const Procedural& p = made->procedural;
+    return fmt::format("{} {} {} {} {} {}", p.table().name, p.size, p.seed, fmt::join(p.values, " "),
+                       medium.storage_bits, medium.linear_interpolation);
+  }
   return "medium " + medium.name;
 }
 
@@ -37,8 +40,8 @@ VolumeGrid load_uniform_grid(const UniformGridMedium& u, Storage storage) {
 VolumeGrid load_grid(const MediumDescription& medium, int threads) {
   const auto storage = static_cast<Storage>(medium.storage_bits);
   if (const auto* file = std::get_if<FileMedium>(&medium.kind)) return read_volume(file->filename, file->grid, storage);
-  if (const auto* cloud = std::get_if<CloudMedium>(&medium.kind))
-    return procedural_cloud({cloud->size, cloud->seed, storage}, threads);
+  if (const auto* made = std::get_if<ProceduralMedium>(&medium.kind))
+    return procedural_density(made->procedural, storage, threads);
   return load_uniform_grid(std::get<UniformGridMedium>(medium.kind), storage);
 }
 

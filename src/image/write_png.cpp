@@ -95,7 +95,7 @@ std::string encode_png(const Image& image, const ImageMetadata& metadata) {
   std::string software = metadata.software, made = comment(metadata);
   png_text texts[] = {text("Software", software), text("Comment", made)};
   const Input input{static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), rows.data(), texts,
-                    2};
+                    metadata.samples_per_pixel > 0 ? 2 : 1};  // a plot was not sampled
 
   Output output;
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &output, on_error, on_warning);

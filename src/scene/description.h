@@ -17,6 +17,7 @@
 #include "base/geometry.h"
 #include "base/pixel_box.h"
 #include "base/pixel_filter.h"
+#include "base/procedural.h"
 #include "base/spectrum.h"
 #include "kernel/phase_table.h"
 
@@ -81,16 +82,15 @@ struct UniformGridMedium {
   std::vector<float> density;  // x fastest
 };
 
-// Type "vdb" or "nanovdb": a grid from a file, read when the scene is compiled.
+// Type "vdb", "nanovdb" or "vol": a grid from a file (its suffix says of which kind), read when the scene is compiled.
 struct FileMedium {
   std::string filename;  // resolved
   std::string grid;      // "" chooses
 };
 
 // Type "procedural".
-struct CloudMedium {
-  int size = 128;
-  std::uint32_t seed = 0;
+struct ProceduralMedium {
+  Procedural procedural = usual_procedural(ProceduralName::cloud);
 };
 
 struct MediumDescription {
@@ -102,7 +102,7 @@ struct MediumDescription {
   std::vector<float> phase_parameters = {0};    // in the order of the phase function's table
   bool linear_interpolation = true;
   int storage_bits = 16;  // 8, 16 or 32
-  std::variant<HomogeneousMedium, UniformGridMedium, FileMedium, CloudMedium> kind;
+  std::variant<HomogeneousMedium, UniformGridMedium, FileMedium, ProceduralMedium> kind;
   Location location;
 };
 

@@ -12,7 +12,7 @@ namespace brume {
 
 namespace {
 
-constexpr std::int64_t max_voxels_along_axis = 65536, max_procedural_size = 2048;
+constexpr std::int64_t max_voxels_along_axis = 65536;
 
 // The product of a factor and a colour, which must fit floats.
 Spectrum scaled(ParameterList& p, double factor, const Spectrum& colour, std::string_view what) {
@@ -125,6 +125,24 @@ UniformGridMedium read_uniform_grid(ParameterList& p) {
   return grid;
 }
 
+// Kinds that have a temperature beside their density are made as files; a medium has one grid.
+ProceduralMedium read_procedural(ParameterList& p) {
+  std::vector<std::string_view> names;
+  for (const ProceduralKind& kind : procedural_kinds)
+    if (!kind.has_temperature) names.push_back(kind.name);
+  const auto kind = static_cast<ProceduralName>(p.choice("kind", names, 0));
+  Procedural procedural = usual_procedural(kind);
+  procedural.size = static_cast<int>(p.integer("size", procedural.size, min_procedural_size, max_procedural_size));
+  procedural.seed = static_cast<std::uint32_t>(p.integer("seed", 0, 0, 0xffffffff));
+  for (std::size_t i = 0; i < procedural.values.size(); ++i) {
+    const ProceduralParameter& parameter = procedural.table().parameters[i];
+    if (parameter.name.empty()) break;
+    procedural.values[i] = static_cast<float>(
+        p.number(parameter.name, static_cast<double>(parameter.fallback), Range::from_to(parameter.lo, parameter.hi)));
+  }
+  return {procedural};
+}
+
 }  // namespace
 
 void Reader::make_named_medium() {
@@ -139,7 +157,7 @@ void Reader::make_named_medium() {
     messages_.warning(directive_.place, "the medium type \"heterogeneous\" is now called \"uniformgrid\"");
     type = "uniformgrid";
   }
-  const std::vector<std::string_view> types = {"homogeneous", "uniformgrid", "nanovdb", "vdb", "procedural"};
+  const std::vector<std::string_view> types = {"homogeneous", "uniformgrid", "nanovdb", "vdb", "vol", "procedural"};
   if (std::find(types.begin(), types.end(), type) == types.end())
     unknown_type(p.place_of(ParameterType::string, "type"), "medium type", type, types, {"rgbgrid", "cloud"});
 
@@ -156,9 +174,7 @@ void Reader::make_named_medium() {
   } else if (type == "uniformgrid") {
     medium.kind = read_uniform_grid(p);
   } else if (type == "procedural") {
-    p.choice("kind", {"cloud"}, 0);
-    medium.kind = CloudMedium{static_cast<int>(p.integer("size", 128, 8, max_procedural_size)),
-                              static_cast<std::uint32_t>(p.integer("seed", 0, 0, 0xffffffff))};
+    medium.kind = read_procedural(p);
   } else {
     p.require(ParameterType::string, "filename");
     medium.kind = FileMedium{resolve(p.string("filename", "")), p.string("gridname", "")};

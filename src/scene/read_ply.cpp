@@ -11,7 +11,7 @@
 #include <limits>
 #include <optional>
 
-#include "base/file.h"
+#include "base/gzip.h"
 
 namespace brume {
 
@@ -261,7 +261,6 @@ void read_faces(const Element& element, Values& source, PlyMesh& ply) {
 }
 
 PlyMesh decode_ply(std::string_view bytes) {
-  if (bytes.starts_with("\x1f\x8b")) throw Fault{"is compressed by gzip: unpack it"};
   Text text(bytes);
   const Header header = read_header(text);
   Values values(text, header.format);
@@ -289,7 +288,7 @@ PlyMesh decode_ply(std::string_view bytes) {
 
 PlyMesh read_ply(const std::string& path) {
   try {
-    return decode_ply(read_file(path));
+    return decode_ply(read_file_unpacked(path));
   } catch (const Fault& fault) {
     throw InputError(path, fault.message);
   }

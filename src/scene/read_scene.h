@@ -8,7 +8,11 @@
 
 namespace brume {
 
-// Reads a scene file. All of a file's errors (at most 20) are thrown together as one InputError; warnings are appended
+// Whether the name is that of a scene: .pbrt, .pbrt.gz or "-".
+bool is_scene_file(const std::string& path);
+
+// Reads a scene file, compressed by gzip or not; "-" is the standard input, whose relative names stand for files in the
+// current folder. All of a file's errors (at most 20) are thrown together as one InputError; warnings are appended
 // to `warnings`.
 SceneDescription read_scene(const std::string& path, std::vector<Diagnostic>& warnings);
 

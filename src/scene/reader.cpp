@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "base/file.h"
+#include "base/gzip.h"
 
 namespace brume {
 
@@ -23,7 +23,6 @@ Reader::Reader(std::string folder, Messages& messages)
 SceneDescription Reader::read(const std::string& name, std::string_view text) {
   sources_.push_back(std::make_unique<Source>(Source{name, text, 0}));
   try {
-    if (text.starts_with("\x1f\x8b")) messages_.fail({sources_[0].get(), 0, 0, 0}, "is compressed by gzip: unpack it");
     if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
       messages_.fail({sources_[0].get(), 0, 0, 0}, "is UTF-16 text: save it as UTF-8");
     if (text.starts_with("\xef\xbb\xbf")) sources_[0]->text.remove_prefix(3);
@@ -209,12 +208,10 @@ const Source& Reader::open_source(const std::string& filename, const Place& plac
     messages_.fail(place, fmt::format("\"{}\" is not a file", printable(filename)));
   std::string& text = texts_[key];
   try {
-    text = read_file(filename);
+    text = read_file_unpacked(filename);
   } catch (const InputError& e) {
     messages_.fail(place, fmt::format("\"{}\" {}", printable(filename), e.diagnostics().front().message));
   }
-  if (text.starts_with("\x1f\x8b"))
-    messages_.fail(place, fmt::format("\"{}\" is compressed by gzip: unpack it", printable(filename)));
   sources_.push_back(std::make_unique<Source>(Source{filename, text, static_cast<int>(sources_.size())}));
   return *(sources_by_name_[key] = sources_.back().get());
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "base/file.h"
 #include "kernel/phase_table.h"
 #include "scene/read_scene.h"
 
@@ -162,12 +163,17 @@ class Writer {
     list("\"float density\"", grid.density);
   }
   void medium_kind(const FileMedium& file) {
-    line("  \"string type\" \"vdb\" \"string filename\" {}", quoted(file.filename));
+    line("  \"string type\" \"{}\" \"string filename\" {}", suffix(file.filename) == ".vol" ? "vol" : "vdb",
+         quoted(file.filename));
     if (!file.grid.empty()) line("  \"string gridname\" {}", quoted(file.grid));
   }
-  void medium_kind(const CloudMedium& cloud) {
-    line("  \"string type\" \"procedural\" \"string kind\" \"cloud\" \"integer size\" {} \"integer seed\" {}",
-         cloud.size, cloud.seed);
+  void medium_kind(const ProceduralMedium& medium) {
+    const Procedural& p = medium.procedural;
+    line("  \"string type\" \"procedural\" \"string kind\" \"{}\" \"integer size\" {} \"integer seed\" {}",
+         p.table().name, p.size, p.seed);
+    for (std::size_t i = 0; i < p.values.size(); ++i)
+      if (const std::string_view name = p.table().parameters[i].name; !name.empty())
+        line("  \"float {}\" {}", name, p.values[i]);
   }
 
   void light(const LightDescription& l) {

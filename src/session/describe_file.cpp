@@ -26,6 +26,7 @@ std::string describe_volume(const std::string& path) {
                          grid.voxels[1], grid.voxels[2], grid.active_voxels, grid.voxel_size.x, grid.voxel_size.y,
                          grid.voxel_size.z);
     lines += fmt::format("    bounds {} to {}\n", text(grid.bounds.lo), text(grid.bounds.hi));
+    if (!grid.note.empty()) lines += fmt::format("    {}\n", grid.note);
   }
   return lines;
 }
@@ -38,7 +39,9 @@ struct DescribeMediumKind {
   std::string operator()(const FileMedium& m) const {
     return fmt::format("grid {} of {}", m.grid.empty() ? "by default" : m.grid, m.filename);
   }
-  std::string operator()(const CloudMedium& m) const { return fmt::format("procedural cloud of {} voxels", m.size); }
+  std::string operator()(const ProceduralMedium& m) const {
+    return fmt::format("procedural {} of {} voxels", m.procedural.table().name, m.procedural.size);
+  }
 };
 
 struct DescribeLight {
@@ -105,11 +108,12 @@ std::string describe_picture(const std::string& path) {
 std::string describe_file(const std::string& path) {
   return with_public_errors([&] {
     const std::string s = suffix(path);
-    if (s == ".vdb" || s == ".nvdb") return describe_volume(path);
-    if (s == ".pbrt") return describe_scene(path);
+    if (is_volume_file(path)) return describe_volume(path);
+    if (is_scene_file(path)) return describe_scene(path);
     if (s == ".exr" || s == ".pfm") return describe_picture(path);
-    throw InputError(path, fmt::format("{}; known are scenes (.pbrt), volumes (.vdb, .nvdb) and pictures (.exr, .pfm)",
-                                       s.empty() ? "no suffix" : fmt::format("unknown suffix \"{}\"", s)));
+    throw InputError(path,
+                     fmt::format("{}; known are scenes (.pbrt), volumes ({}) and pictures (.exr, .pfm)",
+                                 s.empty() ? "no suffix" : fmt::format("unknown suffix \"{}\"", s), volume_suffixes));
   });
 }
 

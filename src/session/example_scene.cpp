@@ -17,7 +17,7 @@ MediumDescription cloud() {
   medium.sigma_a = constant_spectrum(0.01f);
   medium.phase = phase_kind("henyey_greenstein");
   medium.phase_parameters = {0.5f};
-  medium.kind = CloudMedium{};
+  medium.kind = ProceduralMedium{};
   return medium;
 }
 

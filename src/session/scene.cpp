@@ -11,6 +11,7 @@
 #include "session/contents.h"
 #include "session/errors.h"
 #include "session/example_scene.h"
+#include "volume/read_volume.h"
 
 namespace brume {
 
@@ -68,18 +69,19 @@ Scene::~Scene() = default;
 Scene Scene::load(const std::string& path, std::vector<std::string>& warnings) {
   return with_public_errors([&] {
     const std::string s = suffix(path);
-    if (s == ".vdb" || s == ".nvdb") return frame_volume(path);
-    if (s != ".pbrt")
-      throw InputError(path, fmt::format("{}; scenes are .pbrt files, volumes .vdb or .nvdb",
-                                         s.empty() ? "no suffix" : fmt::format("unknown suffix \"{}\"", s)));
+    if (is_volume_file(path)) return frame_volume(path);
+    if (!is_scene_file(path))
+      throw InputError(path,
+                       fmt::format("{}; scenes are .pbrt or .pbrt.gz files, volumes {}",
+                                   s.empty() ? "no suffix" : fmt::format("unknown suffix \"{}\"", s), volume_suffixes));
     return Scene(std::make_unique<Contents>(Contents{read_description(path, warnings), {}, {}}));
   });
 }
 
 Scene Scene::frame_volume(const std::string& path, const std::string& grid) {
   return with_public_errors([&] {
-    if (const std::string s = suffix(path); s != ".vdb" && s != ".nvdb")
-      throw InputError(path, "not a volume file, whose suffix would be .vdb or .nvdb");
+    if (!is_volume_file(path))
+      throw InputError(path, fmt::format("not a volume file, whose suffix would be {}", volume_suffixes));
     FramedVolume framed = brume::frame_volume(path, grid);
     return Scene(std::make_unique<Contents>(Contents{std::move(framed.scene), framed.framing, std::move(framed.note)}));
   });

@@ -16,4 +16,7 @@ VolumeGrid read_vdb(const std::string& file, std::string_view bytes, std::size_t
 std::vector<GridInfo> list_nvdb(const std::string& file, std::string_view bytes);
 VolumeGrid read_nvdb(const std::string& file, std::string_view bytes, std::size_t index, Storage storage);
 
+std::vector<GridInfo> list_vol(const std::string& file, std::string_view bytes);
+VolumeGrid read_vol(const std::string& file, std::string_view bytes, std::size_t index, Storage storage);
+
 }  // namespace brume

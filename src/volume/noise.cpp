@@ -14,7 +14,17 @@ std::uint32_t lattice_bits(std::uint32_t seed, int x, int y, int z) {
                              static_cast<std::uint32_t>(z));
 }
 
-// The product of the offset with one of the twelve directions to the middles of a cube's edges; four come twice.
+// One of the twelve directions to the middles of a cube's edges; four come twice.
+NoisePoint lattice_gradient(std::uint32_t bits) {
+  const std::uint32_t h = bits >> 28;
+  const float u = (h & 1) != 0 ? -1.0f : 1.0f, v = (h & 2) != 0 ? -1.0f : 1.0f;
+  NoisePoint g;
+  (h < 8 ? g.x : g.y) = u;
+  (h < 4 ? g.y : h == 12 || h == 14 ? g.x : g.z) = v;
+  return g;
+}
+
+// The product of the offset with that direction.
 float gradient_product(std::uint32_t bits, float x, float y, float z) {
   const std::uint32_t h = bits >> 28;
   const float u = h < 8 ? x : y;
@@ -23,6 +33,7 @@ float gradient_product(std::uint32_t bits, float x, float y, float z) {
 }
 
 float fade(float t) { return t * t * t * (t * (t * 6 - 15) + 10); }
+float fade_slope(float t) { return 30 * t * t * (t - 1) * (t - 1); }
 float mix(float a, float b, float t) { return a + (b - a) * t; }
 
 // The unit cube that holds a point; corner i is at (i & 1, i >> 1 & 1, i >> 2) from its lowest.
@@ -63,6 +74,42 @@ float perlin_noise(std::uint32_t seed, NoisePoint p) {
         gradient_product(cell.bits(seed, i), cell.x - static_cast<float>(i & 1),
                          cell.y - static_cast<float>(i >> 1 & 1), cell.z - static_cast<float>(i >> 2));
   return cell.interpolate(corner);
+}
+
+NoisePoint perlin_gradient(std::uint32_t seed, NoisePoint p) {
+  const Cell cell(p);
+  std::array<float, 8> product, gx, gy, gz;
+  for (int i = 0; i < 8; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const NoisePoint g = lattice_gradient(cell.bits(seed, i));
+    product[at] = g.x * (cell.x - static_cast<float>(i & 1)) + g.y * (cell.y - static_cast<float>(i >> 1 & 1)) +
+                  g.z * (cell.z - static_cast<float>(i >> 2));
+    gx[at] = g.x, gy[at] = g.y, gz[at] = g.z;
+  }
+  const float u = fade(cell.x), v = fade(cell.y), w = fade(cell.z);
+  const auto across = [&](std::size_t a, std::size_t b, std::size_t c, float s,
+                          float t) {  // mean difference along an axis
+    const auto step = [&](std::size_t corner) { return product[corner + a] - product[corner]; };
+    return mix(mix(step(0), step(b), s), mix(step(c), step(b + c), s), t);
+  };
+  return {cell.interpolate(gx) + fade_slope(cell.x) * across(1, 2, 4, v, w),
+          cell.interpolate(gy) + fade_slope(cell.y) * across(2, 1, 4, u, w),
+          cell.interpolate(gz) + fade_slope(cell.z) * across(4, 1, 2, u, v)};
+}
+
+float fractal_noise(std::uint32_t seed, NoisePoint p, int octaves) {
+  float sum = 0, amplitude = 0.6f, frequency = 1;
+  for (int octave = 0; octave < octaves; ++octave) {
+    sum += amplitude * perlin_noise(seed + static_cast<std::uint32_t>(octave), scaled(p, frequency));
+    amplitude *= 0.5f;
+    frequency *= 2.03f;  // so that the lattices' points, where noise is 0, do not fall together
+  }
+  return sum;
+}
+
+NoisePoint curl_noise(std::uint32_t seed, NoisePoint p) {
+  const NoisePoint a = perlin_gradient(seed, p), b = perlin_gradient(seed + 0x9e3779b9u, p);
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
 float worley_noise(std::uint32_t seed, NoisePoint p) {

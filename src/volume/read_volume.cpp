@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/diagnostics.h"
 #include "base/file.h"
 #include "volume/formats.h"
@@ -14,16 +16,15 @@ struct Format {
   std::vector<GridInfo> (*list)(const std::string& file, std::string_view bytes);
   VolumeGrid (*read)(const std::string& file, std::string_view bytes, std::size_t index, Storage storage);
 };
-constexpr Format formats[] = {{".vdb", list_vdb, read_vdb}, {".nvdb", list_nvdb, read_nvdb}};
+constexpr Format formats[] = {
+    {".vdb", list_vdb, read_vdb}, {".nvdb", list_nvdb, read_nvdb}, {".vol", list_vol, read_vol}};
 
 const Format& format_of(const std::string& path) {
   const std::string ending = suffix(path);
-  std::string valid;
   for (const Format& format : formats) {
     if (format.suffix == ending) return format;
-    valid += fmt::format("{}{}", valid.empty() ? "" : " or ", format.suffix);
   }
-  throw InputError(path, fmt::format("volume files end in {}, not in \"{}\"", valid, ending));
+  throw InputError(path, fmt::format("volume files end in {}, not in \"{}\"", volume_suffixes, ending));
 }
 
 // "density (float, fog volume), flags (int32, unknown)"
@@ -83,6 +84,11 @@ void note_repeated_names(std::vector<GridInfo>& grids) {
 }
 
 }  // namespace
+
+bool is_volume_file(const std::string& path) {
+  const std::string ending = suffix(path);
+  return std::any_of(std::begin(formats), std::end(formats), [&](const Format& f) { return f.suffix == ending; });
+}
 
 std::vector<GridInfo> list_grids(const std::string& path) {
   const Format& format = format_of(path);

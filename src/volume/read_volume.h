@@ -1,4 +1,4 @@
-// Volume files: .vdb (OpenVDB) and .nvdb (NanoVDB).
+// Volume files: .vdb (OpenVDB), .nvdb (NanoVDB) and .vol (Mitsuba).
 #pragma once
 
 #include <string>
@@ -12,23 +12,29 @@ namespace brume {
 struct GridInfo {
   std::string name;
   std::string type;             // "float", "half", "vec3s", ...: the format's own word
-  std::string grid_class;       // "fog volume", "level set", "staggered", "unknown"
+  std::string grid_class;       // "fog volume", "level set", "staggered", "dense grid", "unknown"
   std::array<int, 3> voxels{};  // active bounding box
   std::int64_t active_voxels = 0;
   Vector3 voxel_size;
   Box3 bounds;              // in the file's world space
-  bool renderable = false;  // a scalar float or half grid that is not a level set
+  bool renderable = false;  // a grid of one value a voxel that can be a density
   std::string note;         // why it is not renderable, or what else to know, or ""
 };
+
+// The suffixes that list_grids and read_volume know, ready to be shown.
+constexpr const char* volume_suffixes = ".vdb, .nvdb or .vol";
+
+// Whether the file's suffix is one of them.
+bool is_volume_file(const std::string& path);
 
 // The grids of a file. Throws InputError that names the file and what is wrong with it.
 std::vector<GridInfo> list_grids(const std::string& path);
 
 // Reads one grid. `name` empty chooses by this rule: "density"; else the only renderable grid there is; else an
-// InputError that lists the grids. Level sets, vector and integer grids are refused with a hint; densities that are not
-// finite or negative are refused with their count and the place of the first. The density is the value stored for a
-// voxel, marked active or not, as OpenVDB's and NanoVDB's own samplers take it, and 0 outside the box of the active
-// voxels. Throws InputError.
+// InputError that lists the grids. Level sets, vector grids and others that are no density are refused with a hint;
+// densities that are not finite or negative are refused with their count and the place of the first. The density is the
+// value stored for a voxel, marked active or not, as OpenVDB's and NanoVDB's own samplers take it, and 0 outside the
+// box of the active voxels (of all voxels in a .vol). Throws InputError.
 VolumeGrid read_volume(const std::string& path, const std::string& name, Storage storage);
 
 }  // namespace brume

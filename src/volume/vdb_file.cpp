@@ -6,8 +6,7 @@
 namespace brume {
 namespace {
 
-constexpr std::uint64_t vdb_magic = 0x56444220;  // " BDV"
-constexpr std::uint32_t oldest_version = 222, newest_version = 224;
+constexpr std::uint32_t oldest_version = 222, newest_version = newest_vdb_version;
 constexpr char suffix_separator = '\x1e';  // between a grid's name and its number in a unique name
 
 void read_header(ByteReader& reader) {

@@ -33,6 +33,9 @@ struct VdbGrid {
   std::uint64_t tree_position = 0;  // of the tree, where the grid has its own
 };
 
+constexpr std::uint64_t vdb_magic = 0x56444220;  // " BDV", with which a file begins
+constexpr std::uint32_t newest_vdb_version = 224;
+
 enum VdbCompression : std::uint32_t { vdb_zip = 1, vdb_active_mask = 2, vdb_blosc = 4 };
 
 // The grids of a file in its order. Throws InputError.

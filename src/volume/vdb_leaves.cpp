@@ -96,15 +96,6 @@ LeafCollector::LeafCollector(const std::string& file, const std::string& grid_na
       origin_(array_origin(active)),
       builder_(make_builder(file, grid_name, active, storage, file_bytes)) {}
 
-void LeafCollector::check(float value, Voxel first_voxel, std::int64_t voxels) {
-  if (value >= 0 && std::isfinite(value)) return;
-  if (bad_values_ == 0) {
-    first_bad_value_ = value;
-    first_bad_voxel_ = first_voxel;
-  }
-  bad_values_ += voxels;
-}
-
 void LeafCollector::leaf(Voxel origin, std::span<const float, brick_voxels> values) {
   std::array<std::int64_t, 3> begin{}, end{};  // of the leaf's part that is in the active box
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -117,12 +108,12 @@ void LeafCollector::leaf(Voxel origin, std::span<const float, brick_voxels> valu
     for (std::int64_t y = begin[1]; y < end[1]; ++y) {
       for (std::int64_t z = begin[2]; z < end[2]; ++z) {
         const float value = values[static_cast<std::size_t>(x * 64 + y * 8 + z)];
-        check(value, {origin[0] + x, origin[1] + y, origin[2] + z}, 1);
+        check_.check(value, {origin[0] + x, origin[1] + y, origin[2] + z}, 1);
         brick[static_cast<std::size_t>(z * 64 + y * 8 + x)] = value;
       }
     }
   }
-  if (bad_values_ > 0) return;
+  if (check_.failed()) return;
   with_length_checked([&] { builder_.set_brick(brick_at(origin), brick); });
 }
 
@@ -134,8 +125,8 @@ void LeafCollector::tile(Voxel origin, std::int64_t edge, float value) {
     end[axis] = std::min(origin[axis] + edge, active_.hi[axis] + 1);
     if (begin[axis] >= end[axis]) return;
   }
-  check(value, begin, (end[0] - begin[0]) * (end[1] - begin[1]) * (end[2] - begin[2]));
-  if (bad_values_ > 0) return;
+  check_.check(value, begin, (end[0] - begin[0]) * (end[1] - begin[1]) * (end[2] - begin[2]));
+  if (check_.failed()) return;
   std::array<float, brick_voxels> values;
   values.fill(value);
   Voxel brick;
@@ -171,12 +162,7 @@ void LeafCollector::with_length_checked(const Set& set) {
 }
 
 VolumeGrid LeafCollector::finish(const Transform& world_from_lattice) {
-  if (bad_values_ > 0) {
-    throw InputError(file_, fmt::format("grid \"{}\" is no density: {} of its values are negative or not finite, the "
-                                        "first {} at voxel ({}, {}, {})",
-                                        grid_name_, bad_values_, first_bad_value_, first_bad_voxel_[0],
-                                        first_bad_voxel_[1], first_bad_voxel_[2]));
-  }
+  check_.finish(file_, grid_name_);
   for (const auto& row : world_from_lattice.m) {
     for (const double element : row) {
       if (!std::isfinite(element)) {

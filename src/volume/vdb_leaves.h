@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "volume/density_check.h"
 #include "volume/read_volume.h"
 #include "volume/volume_grid.h"
 
@@ -47,7 +48,6 @@ class LeafCollector {
   VolumeGrid finish(const Transform& world_from_lattice);
 
  private:
-  void check(float value, std::array<std::int64_t, 3> first_voxel, std::int64_t voxels);
   std::array<int, 3> brick_at(std::array<std::int64_t, 3> origin) const;
   template <class Set>
   void with_length_checked(const Set& set);
@@ -56,9 +56,7 @@ class LeafCollector {
   VoxelBox active_;
   std::array<std::int64_t, 3> origin_{};  // of the array: the active box's first voxel, rounded down to a multiple of 8
   BrickGridBuilder builder_;
-  std::int64_t bad_values_ = 0;
-  float first_bad_value_ = 0;
-  std::array<std::int64_t, 3> first_bad_voxel_{};
+  DensityCheck check_;
 };
 
 }  // namespace brume

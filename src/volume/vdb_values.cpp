@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "volume/decompress.h"
+#include "volume/half.h"
 #include "volume/vdb_file.h"
 
 namespace brume {
@@ -91,16 +92,6 @@ void read_vdb_values(ByteReader& reader, const VdbValueFormat& format, std::span
   for (std::size_t i = values.size(); i-- > 0;) {
     values[i] = bit(active, i) ? values[--stored] : bit(choice, i) ? chosen : unchosen;
   }
-}
-
-float half_to_float(std::uint16_t bits) {
-  const std::uint32_t sign = (bits & 0x8000u) << 16, exponent = (bits >> 10) & 31u, fraction = bits & 0x3ffu;
-  if (exponent == 0) {  // zero and subnormal: fraction / 2^24
-    const float magnitude = static_cast<float>(fraction) * 0x1p-24f;
-    return sign != 0 ? -magnitude : magnitude;
-  }
-  const std::uint32_t float_exponent = exponent == 31 ? 255 : exponent + 127 - 15;
-  return std::bit_cast<float>(sign | (float_exponent << 23) | (fraction << 13));
 }
 
 }  // namespace brume

@@ -18,7 +18,4 @@ struct VdbValueFormat {
 void read_vdb_values(ByteReader& reader, const VdbValueFormat& format, std::span<const std::uint64_t> active,
                      std::span<float> values);
 
-// The float of an IEEE 754 binary16's bits.
-float half_to_float(std::uint16_t bits);
-
 }  // namespace brume

@@ -10,7 +10,7 @@ namespace brume {
 
 // What a point outside the array sees as the value fades (see media.md's "Support of a grid" in docs/architecture.md).
 enum class Support {
-  cut,   // ends at the array's box: uniformgrid
+  cut,   // ends at the array's box: uniformgrid and .vol
   fade,  // linear interpolation fades to 0 over half a voxel beyond the outermost values' voxels: .vdb and .nvdb
 };
 

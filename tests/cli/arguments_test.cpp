@@ -24,7 +24,8 @@ TEST(Arguments, HelpFitsOnAScreen) {
   for (const char* word : {"--output",    "--spp",         "--time",        "--cropwindow", "--write-partial-images",
                            "brume bench", "--seed",        "--nthreads",    "--resolution", "--integrator",
                            "--grid",      "--write-scene", "--variance",    "--quiet",      "--version",
-                           "--example",   "brume info",    "brume compare", "BRUME_ISA",    ".pfm"})
+                           "--example",   "brume info",    "brume compare", "brume make",   "brume phase",
+                           "BRUME_ISA",   ".pfm"})
     EXPECT_THAT(outcome.out, HasSubstr(word));
   EXPECT_EQ(run(folder.path(), {"render", "--help"}).out, outcome.out);
   EXPECT_THAT(run(folder.path(), {"info", "--help"}).out, StartsWith("Usage: brume info FILE"));
@@ -86,7 +87,7 @@ TEST(Arguments, MistakesAreNamedAndNothingIsWritten) {
       {{"a.pbrt", "-o", "missing/x.png"}, "missing/x.png: error: cannot be written: there is no folder missing"},
       {{"missing.pbrt"}, "missing.pbrt: error: cannot be read: No such file"},
       {{"missing.vdb"}, "missing.vdb: error:"},
-      {{"a.obj"}, "scenes are .pbrt files, volumes .vdb or .nvdb"},
+      {{"a.obj"}, "scenes are .pbrt or .pbrt.gz files, volumes .vdb, .nvdb or .vol"},
       {{"info", "a.obj"}, ".nvdb"},
       {{"info"}, "needs the name of a file"},
   };

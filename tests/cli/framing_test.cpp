@@ -10,6 +10,7 @@
 #include "image/temporary_folder.h"
 #include "session/frame_volume.h"
 #include "session/grid_extent.h"
+#include "volume/make_vol.h"
 
 namespace brume {
 namespace {
@@ -63,6 +64,25 @@ TEST(Framing, InfoAndAMissingGrid) {
   const Outcome missing = run(folder.path(), {volume, "--grid", "temperature"});
   EXPECT_EQ(missing.exit_code, 1);
   EXPECT_THAT(missing.error, HasSubstr("density"));
+}
+
+// Written as a scene, the volume keeps its type.
+TEST(Framing, TakesAVolOfMitsuba) {
+  const TemporaryFolder folder;
+  write_bytes_to(folder.file("a.vol"), make_vol(3, {4, 5, 6}, 1));
+  write_bytes_to(folder.file("rgb.vol"), make_vol(1, {2, 2, 2}, 3));
+  const Outcome info = run(folder.path(), {"info", "a.vol"});
+  EXPECT_THAT(info.out, HasSubstr("density: uint8, dense grid\n    4 x 5 x 6 voxels"));
+  const Outcome outcome =
+      run(folder.path(), {"a.vol", "--spp", "1", "--resolution", "9x6", "-o", "a.pfm", "--write-scene", "a.pbrt"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+  EXPECT_THAT(bytes_of(folder.file("a.pbrt")), HasSubstr("\"string type\" \"vol\""));
+  EXPECT_EQ(run(folder.path(), {"a.pbrt", "-o", "b.pfm"}).exit_code, 0);
+  EXPECT_EQ(bytes_of(folder.file("a.pfm")), bytes_of(folder.file("b.pfm")));
+  const Outcome three = run(folder.path(), {"rgb.vol"});
+  EXPECT_EQ(three.exit_code, 1);
+  EXPECT_THAT(three.error, HasSubstr("it has 3 values a voxel"));
+  EXPECT_THAT(run(folder.path(), {"info", "rgb.vol"}).out, HasSubstr("3 values a voxel"));
 }
 
 TEST(Framing, FitsEveryShapeOfPicture) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <cstdlib>
 
 #include "cli/run_program.h"
 #include "image/image.h"
@@ -11,6 +12,7 @@
 namespace brume {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -155,6 +157,23 @@ TEST_F(Outputs, BadOutputsAreRefusedBeforeRendering) {
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.error, HasSubstr("folder.pfm: error: cannot be written: it is a folder"));
   EXPECT_THAT(folder_.names(), ElementsAre("a.pbrt", "folder.pfm"));
+}
+
+// The same bits from the file, from it packed, and from either on the standard input.
+TEST(Inputs, ScenesComePackedAndFromTheStandardInput) {
+  const TemporaryFolder folder;
+  write_small_scene(folder.file("a.pbrt"));
+  EXPECT_EQ(run(folder.path(), {"a.pbrt", "-o", "expected.pfm"}).exit_code, 0);
+  const std::string program = BRUME_PROGRAM, there = "cd '" + folder.path() + "' && ";
+  EXPECT_EQ(std::system((there + "gzip -k a.pbrt").c_str()), 0);
+  EXPECT_EQ(run(folder.path(), {"a.pbrt.gz", "-o", "packed.pfm"}).exit_code, 0);
+  EXPECT_EQ(std::system((there + program + " - -o read.pfm --quiet < a.pbrt").c_str()), 0);
+  EXPECT_EQ(std::system((there + "cat a.pbrt.gz | " + program + " - -o both.pfm --quiet").c_str()), 0);
+  for (const char* picture : {"packed.pfm", "read.pfm", "both.pfm"})
+    EXPECT_EQ(bytes_of(folder.file(picture)), bytes_of(folder.file("expected.pfm"))) << picture;
+  EXPECT_NE(std::system((there + "echo Shape | " + program + " - -o none.pfm 2> error").c_str()), 0);
+  EXPECT_THAT(bytes_of(folder.file("error")), HasSubstr("standard input:1:1: error:"));
+  EXPECT_THAT(folder.names(), Not(Contains("none.pfm")));
 }
 
 }  // namespace

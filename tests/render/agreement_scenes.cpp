@@ -103,7 +103,7 @@ void add_media(std::vector<AgreementScene>& all) {
                      view_of({m}, {free_volume("smoke")})});
     }
   MediumDescription cloud = homogeneous_medium("cloud", 0, 12);
-  cloud.kind = CloudMedium{48, 3};
+  cloud.kind = ProceduralMedium{usual_procedural(ProceduralName::cloud, 48, 3)};
   set_phase(cloud, "henyey_greenstein", {0.85f});
   all.push_back({"cloud", view_of({cloud}, {free_volume("cloud"), ground()})});
   all.push_back({"thin_grid", view_of({smoke("smoke", 0, 0.1f)}, {free_volume("smoke")})});

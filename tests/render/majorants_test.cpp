@@ -26,7 +26,7 @@ CompiledScene volume(int bits, bool linear, bool is_cloud = false) {
   s.camera.fov = 40;
   s.film.width = s.film.height = 64;
   s.media = {grid_medium("grid", {-1, -1, -1}, {1, 1, 1}, {edge, edge, edge}, density, 0.1f, 4)};
-  if (is_cloud) s.media[0].kind = CloudMedium{64, 2};
+  if (is_cloud) s.media[0].kind = ProceduralMedium{usual_procedural(ProceduralName::cloud, 64, 2)};
   s.media[0].storage_bits = bits;
   s.media[0].linear_interpolation = linear;
   s.shapes = {free_volume("grid")};

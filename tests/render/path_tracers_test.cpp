@@ -21,8 +21,9 @@ TEST_P(PathTracers, SingleScatteringOfAFarLampAhead) {
   s.media = {homogeneous_medium("fog", 0, 0.01f)};
   s.shapes = {box_shape({-1, -1, 1}, {1, 1, 2}, "fog")};
   s.lights = {point_light({0.3, 0, 1000}, 1e6f)};
-  // 0.01 (1/(4 pi)) exp(-0.01) (1000 / 998.5)^2
-  expect_estimate(s, 0.01 / (4 * std::numbers::pi) * std::exp(-0.01) * 1e6 / (999.0 * 998.0), 4e-9, 1e-4);
+  // 0.01 (1/(4 pi)) exp(-0.01) (1000 / 998.5)^2. The reference meets one collision in a hundred paths.
+  const double error = s.integrator.name == "volpath" ? 1e-4 : 5e-3;
+  expect_estimate(s, 0.01 / (4 * std::numbers::pi) * std::exp(-0.01) * 1e6 / (999.0 * 998.0), 4e-9, error);
 }
 
 ShapeDescription lamp(Vector3 centre, double radius, float reflectance) {

@@ -32,7 +32,7 @@ CompiledScene volume(int bits, bool linear, bool is_cloud = false) {
   }
   SceneDescription s = needle_scene();
   s.media = {grid_medium("grid", {0, 0, 0}, {1, 1, 1}, resolution, density, 0, 1)};
-  if (is_cloud) s.media[0].kind = CloudMedium{64, 2};
+  if (is_cloud) s.media[0].kind = ProceduralMedium{usual_procedural(ProceduralName::cloud, 64, 2)};
   s.media[0].storage_bits = bits;
   s.media[0].linear_interpolation = linear;
   s.shapes = {free_volume("grid")};

@@ -105,7 +105,7 @@ TEST_F(Ply, BrokenFilesAreRefusedWithAReason) {
     return error(changed);
   };
   EXPECT_EQ(error(""), "is not a .ply file: it does not begin with the line \"ply\"");
-  EXPECT_EQ(error("\x1f\x8b\x08"), "is compressed by gzip: unpack it");
+  EXPECT_EQ(error("\x1f\x8b\x08"), "is compressed by gzip and ends too early");
   EXPECT_EQ(error("ply\nformat ascii 1.0\n"), "ends within its header");
   EXPECT_EQ(with("format ascii 1.0\n", ""), "has no line \"format\" in its header");
   EXPECT_EQ(with("ascii", "utf-8"), "has the unknown format \"utf-8\"");

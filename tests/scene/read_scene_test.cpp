@@ -102,8 +102,8 @@ TEST(ReadScene, AdditionsAndAListAcrossFiles) {
   EXPECT_EQ(s.media[0].phase_parameters, std::vector<float>{0.8f});
   EXPECT_FALSE(s.media[0].linear_interpolation);
   EXPECT_EQ(s.media[0].storage_bits, 8);
-  EXPECT_EQ(kind<CloudMedium>(s.media[0]).size, 64);
-  EXPECT_EQ(kind<CloudMedium>(s.media[0]).seed, 9u);
+  EXPECT_EQ(kind<ProceduralMedium>(s.media[0]).procedural.size, 64);
+  EXPECT_EQ(kind<ProceduralMedium>(s.media[0]).procedural.seed, 9u);
   const UniformGridMedium& grid = kind<UniformGridMedium>(s.media[1]);
   EXPECT_EQ(grid.density, (std::vector<float>{0, 0.1f, 0.25f, 1, 2, 0.3f}));
   EXPECT_EQ(grid.resolution, (std::array<int, 3>{2, 3, 1}));
@@ -128,6 +128,18 @@ TEST(ReadScene, AdditionsAndAListAcrossFiles) {
   EXPECT_NEAR(luminance(kind<PointLight>(s.lights[0]).intensity), 100 / (4 * 3.14159265358979), 1e-5);
   EXPECT_NEAR(luminance(kind<DistantLight>(s.lights[1]).radiance), 3, 1e-5);
   EXPECT_EQ(kind<InfiniteLight>(s.lights[2]).radiance, rgb(0.2f, 0.4f, 0.6f));
+}
+
+TEST(ReadScene, ProceduralMediaHaveTheParametersOfTheirKind) {
+  const SceneDescription s = world_of(R"(
+    MakeNamedMedium "a" "string type" "procedural"
+    MakeNamedMedium "b" "string type" "procedural" "string kind" "smoke" "float spread" 0.25 "integer size" 40
+    MakeNamedMedium "c" "string type" "procedural" "string kind" "fog" "integer seed" 7)");
+  EXPECT_EQ(kind<ProceduralMedium>(s.media.at(0)).procedural, usual_procedural(ProceduralName::cloud));
+  Procedural smoke = usual_procedural(ProceduralName::smoke, 40);
+  smoke.values[1] = 0.25f;
+  EXPECT_EQ(kind<ProceduralMedium>(s.media.at(1)).procedural, smoke);
+  EXPECT_EQ(kind<ProceduralMedium>(s.media.at(2)).procedural, usual_procedural(ProceduralName::fog, 128, 7));
 }
 
 TEST(ReadScene, DefaultsOfAnEmptyWorld) {

@@ -7,6 +7,7 @@
 
 #include "base/diagnostics.h"
 #include "volume/formats.h"
+#include "volume/make_vol.h"
 #include "volume/write_files.h"
 
 namespace brume {
@@ -19,7 +20,7 @@ struct Format {
   List list;
   Read read;
 };
-constexpr Format vdb{list_vdb, read_vdb}, nvdb{list_nvdb, read_nvdb};
+constexpr Format vdb{list_vdb, read_vdb}, nvdb{list_nvdb, read_nvdb}, vol{list_vol, read_vol};
 
 // Whether all that can be read of the file was read.
 bool survives(const Format& format, const std::string& bytes) {
@@ -119,6 +120,20 @@ TEST_P(DamagedFiles, Nvdb) {
     expect_truncations_refused(nvdb, good);
     expect_flips_survived(nvdb, good, 200);
     expect_odd_sizes_survived(nvdb, good, 200);
+  }
+}
+
+TEST(DamagedFiles, Vol) {
+  for (const int encoding : {1, 2, 3}) {
+    const std::string good = make_vol(encoding, {9, 5, 17}, 1);
+    expect_truncations_refused(vol, good);
+    expect_flips_survived(vol, good, 300);
+    expect_odd_sizes_survived(vol, good, 200);
+    for (std::size_t at = 0; at < 48; ++at) {
+      std::string bytes = good;
+      bytes.replace(at, 4, "\xff\xff\xff\x7f");
+      survives(vol, bytes);
+    }
   }
 }
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "volume/grid_views.h"
 #include "volume/resample.h"
@@ -11,23 +13,126 @@
 namespace brume {
 namespace {
 
-TEST(ProceduralCloud, IsTheSameForAnyNumberOfThreads) {
-  const VolumeGrid one = procedural_cloud({40, 3, Storage::u16}, 1);
+VolumeGrid cloud_of(int size, std::uint32_t seed, Storage storage) {
+  return procedural_density(usual_procedural(ProceduralName::cloud, size, seed), storage, 2);
+}
+
+// Each kind by its number.
+class ProceduralKinds : public testing::TestWithParam<int> {
+ protected:
+  static Procedural usual(int size, std::uint32_t seed) {
+    return usual_procedural(static_cast<ProceduralName>(GetParam()), size, seed);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(All, ProceduralKinds, testing::Range(0, static_cast<int>(procedural_kinds.size())),
+                         [](const auto& kind) {
+                           return std::string(procedural_kinds[static_cast<std::size_t>(kind.param)].name);
+                         });
+
+TEST_P(ProceduralKinds, AreTheSameForAnyNumberOfThreads) {
+  const std::vector<VolumeGrid> one = procedural_grids(usual(40, 3), Storage::u16, 1);
   for (const int threads : {2, 3, 8}) {
-    const VolumeGrid many = procedural_cloud({40, 3, Storage::u16}, threads);
-    EXPECT_EQ(one.bricks.table, many.bricks.table);
-    EXPECT_EQ(one.bricks.words, many.bricks.words);
+    const std::vector<VolumeGrid> many = procedural_grids(usual(40, 3), Storage::u16, threads);
+    ASSERT_EQ(one.size(), many.size());
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      EXPECT_EQ(one[i].bricks.table, many[i].bricks.table);
+      EXPECT_EQ(one[i].bricks.words, many[i].bricks.words);
+    }
   }
 }
 
-TEST(ProceduralCloud, ChangesWithItsSeed) {
-  EXPECT_NE(procedural_cloud({40, 1, Storage::u16}, 2).bricks.words,
-            procedural_cloud({40, 2, Storage::u16}, 2).bricks.words);
+TEST_P(ProceduralKinds, ChangeWithTheirSeedAndWithEachParameter) {
+  const auto words = [](const Procedural& p) {
+    std::vector<std::uint32_t> all;
+    for (const VolumeGrid& grid : procedural_grids(p, Storage::u16, 2))
+      all.insert(all.end(), grid.bricks.words.begin(), grid.bricks.words.end());
+    return all;
+  };
+  const std::vector<std::uint32_t> usual_words = words(usual(32, 1));
+  EXPECT_NE(words(usual(32, 2)), usual_words);
+  for (std::size_t i = 0; i < max_procedural_parameters; ++i) {
+    const ProceduralParameter& parameter = usual(32, 1).table().parameters[i];
+    if (parameter.name.empty()) break;
+    Procedural changed = usual(32, 1);
+    changed.values[i] = static_cast<float>(0.75 * parameter.lo + 0.25 * parameter.hi);
+    EXPECT_NE(words(changed), usual_words) << parameter.name;
+  }
+}
+
+// At the ends of the parameters' ranges too.
+TEST_P(ProceduralKinds, HaveDensitiesFromZeroToOne) {
+  for (const int end : {0, 1, 2}) {
+    Procedural procedural = usual(48, static_cast<std::uint32_t>(end));
+    for (std::size_t i = 0; i < max_procedural_parameters; ++i) {
+      const ProceduralParameter& parameter = procedural.table().parameters[i];
+      if (end > 0) procedural.values[i] = static_cast<float>(end == 1 ? parameter.lo : parameter.hi);
+    }
+    const VolumeGrid grid = procedural_density(procedural, Storage::f32, 2);
+    EXPECT_EQ(grid.name, "density");
+    EXPECT_GE(grid.bricks.min_value, 0);
+    EXPECT_LE(grid.bricks.max_value, 1);
+    EXPECT_GT(grid.bricks.max_value, 0.5f);
+    EXPECT_GT(grid.bricks.mean_value, 0.005);
+  }
+}
+
+// None is cut by its box; fog stands on the ground, the others not even there.
+TEST_P(ProceduralKinds, EndWithinTheirBox) {
+  for (const std::uint32_t seed : {0u, 1u, 2u}) {
+    const VolumeGrid grid = procedural_density(usual(64, seed), Storage::u16, 2);
+    const bool stands = usual(64, seed).kind == ProceduralName::fog;
+    const auto [nx, ny, nz] = grid.bricks.voxels;
+    const kernel::BrickGrid view = kernel_view(grid.bricks);
+    for (int z = 0; z < nz; ++z) {
+      for (int y = 0; y < ny; ++y) {
+        for (int x = 0; x < nx; ++x) {
+          const bool outermost = x == 0 || z == 0 || x == nx - 1 || y == ny - 1 || z == nz - 1 || (y == 0 && !stands);
+          if (outermost) {
+            ASSERT_LE(kernel::grid_voxel(view, x, y, z), 0.003f) << x << " " << y << " " << z;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_P(ProceduralKinds, AnySizeWorksWithinTheLimits) {
+  for (const int size : {1, 2, 7, 9}) {
+    const auto voxels = procedural_density(usual(size, 0), Storage::u8, 2).bricks.voxels;
+    EXPECT_EQ(*std::max_element(voxels.begin(), voxels.end()), size);
+  }
+  EXPECT_THROW(procedural_density(usual(0, 0), Storage::u8, 1), std::invalid_argument);
+  EXPECT_THROW(procedural_density(usual(max_procedural_size + 1, 0), Storage::u8, 1), std::invalid_argument);
+}
+
+TEST(ProceduralFire, IsHotWhereItBurns) {
+  Procedural fire = usual_procedural(ProceduralName::fire, 48);
+  fire.values[1] = 1500;
+  const std::vector<VolumeGrid> grids = procedural_grids(fire, Storage::f32, 2);
+  ASSERT_EQ(grids.size(), 2u);
+  EXPECT_EQ(grids[1].name, "temperature");
+  EXPECT_LE(grids[1].bricks.max_value, 1500);
+  EXPECT_GT(grids[1].bricks.max_value, 1400);
+  EXPECT_EQ(grids[1].bricks.nonzero_voxels, grids[0].bricks.nonzero_voxels);
+}
+
+TEST(ProceduralFog, ThinsUpwards) {
+  const VolumeGrid fog = procedural_density(usual_procedural(ProceduralName::fog, 64), Storage::u16, 2);
+  const kernel::BrickGrid view = kernel_view(fog.bricks);
+  double low = 0, high = 0;
+  for (int z = 16; z < 48; ++z) {
+    for (int x = 16; x < 48; ++x) {
+      low += static_cast<double>(kernel::grid_voxel(view, x, 1, z));
+      high += static_cast<double>(kernel::grid_voxel(view, x, 8, z));
+    }
+  }
+  EXPECT_GT(low, 2 * high);
+  EXPECT_GT(high, 0);
 }
 
 TEST(ProceduralCloud, FillsAMiddlingPartOfItsBoxWithDensitiesUpToOne) {
   for (const std::uint32_t seed : {0u, 1u, 2u}) {
-    const VolumeGrid cloud = procedural_cloud({48, seed, Storage::f32}, 2);
+    const VolumeGrid cloud = cloud_of(48, seed, Storage::f32);
     EXPECT_EQ(cloud.bricks.voxels, (std::array<int, 3>{48, 29, 48}));
     EXPECT_GE(cloud.bricks.min_value, 0);
     EXPECT_LE(cloud.bricks.max_value, 1);
@@ -48,42 +153,23 @@ int used_at(const VolumeGrid& cloud, double height) {
 }
 
 TEST(ProceduralCloud, IsFlatBelowAndNarrowsUpwards) {
-  const VolumeGrid cloud = procedural_cloud({64, 0, Storage::u16}, 2);
+  const VolumeGrid cloud = cloud_of(64, 0, Storage::u16);
   EXPECT_EQ(used_at(cloud, -0.5), 0);
   EXPECT_GT(used_at(cloud, -0.34), 600);  // a wide base a little above
   EXPECT_GT(used_at(cloud, -0.25), 2 * used_at(cloud, 0.15));
   EXPECT_GT(used_at(cloud, 0.15), 30);
 }
 
-// The cloud is not cut by its box.
-TEST(ProceduralCloud, EndsWithinItsBox) {
-  const VolumeGrid cloud = procedural_cloud({64, 0, Storage::u16}, 2);
-  const auto [nx, ny, nz] = cloud.bricks.voxels;
-  const kernel::BrickGrid view = kernel_view(cloud.bricks);
-  for (int z = 0; z < nz; ++z) {
-    for (int y = 0; y < ny; ++y) {
-      for (int x = 0; x < nx; ++x) {
-        const bool outermost = x == 0 || y == 0 || z == 0 || x == nx - 1 || y == ny - 1 || z == nz - 1;
-        if (outermost) {
-          ASSERT_EQ(kernel::grid_voxel(view, x, y, z), 0);
-        }
-      }
-    }
-  }
+TEST(ProceduralCloud, FillsItsBox) {
+  const VolumeGrid cloud = cloud_of(64, 0, Storage::u16);
   const Box3 box = bounds(cloud.medium_from_index, support_index(cloud, false));
   EXPECT_NEAR(box.lo.x, -1, 1e-12);
   EXPECT_NEAR(box.hi.z, 1, 1e-12);
   EXPECT_NEAR(box.hi.y, 0.6, 0.5 * 2.0 / 64);
 }
 
-TEST(ProceduralCloud, AnySizeWorksWithinItsLimits) {
-  for (const int size : {1, 2, 7, 9}) EXPECT_EQ(procedural_cloud({size, 0, Storage::u8}, 2).bricks.voxels[0], size);
-  EXPECT_THROW(procedural_cloud({0, 0, Storage::u8}, 1), std::invalid_argument);
-  EXPECT_THROW(procedural_cloud({max_cloud_size + 1, 0, Storage::u8}, 1), std::invalid_argument);
-}
-
 TEST(Resample, KeepsValuesAndPlace) {
-  const VolumeGrid cloud = procedural_cloud({40, 3, Storage::f32}, 2);
+  const VolumeGrid cloud = cloud_of(40, 3, Storage::f32);
   const VolumeGrid same = resample(cloud, cloud.bricks.voxels, Storage::f32, 2);
   EXPECT_EQ(same.bricks.table, cloud.bricks.table);
   EXPECT_EQ(same.bricks.words, cloud.bricks.words);

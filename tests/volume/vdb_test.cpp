@@ -4,8 +4,8 @@
 
 #include "base/diagnostics.h"
 #include "volume/expect_same.h"
+#include "volume/half.h"
 #include "volume/read_volume.h"
-#include "volume/vdb_values.h"
 #include "volume/write_files.h"
 
 namespace brume {
@@ -167,7 +167,7 @@ TEST(Vdb, FilesThatAreNoneAreRefusedWithAReason) {
   write_bytes(path, bytes);
   EXPECT_THAT(error_of(path), HasSubstr("file version 200; versions 222 to 224 can be read"));
   EXPECT_THAT(error_of(temporary_file("missing.vdb")), HasSubstr("missing.vdb"));
-  EXPECT_THAT(error_of("cloud.exr"), HasSubstr("volume files end in .vdb or .nvdb, not in \".exr\""));
+  EXPECT_THAT(error_of("cloud.exr"), HasSubstr("volume files end in .vdb, .nvdb or .vol, not in \".exr\""));
 }
 
 TEST(Vdb, HalvesBecomeTheirFloats) {

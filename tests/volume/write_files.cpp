@@ -245,11 +245,19 @@ void write_vdb_far_apart(const std::string& path) {
   write_grids(path, {grid});
 }
 
-DenseGrid read_back_vdb(const std::string& path) {
+std::string vdb_kind(const std::string& path, const std::string& name) {
   initialize();
   openvdb::io::File file(path);
   file.open(false);
-  const auto grid = openvdb::gridPtrCast<FloatGrid>(file.readGrid("density"));
+  const openvdb::GridBase::Ptr grid = file.readGrid(name);
+  return openvdb::GridBase::gridClassToString(grid->getGridClass()) + (grid->saveFloatAsHalf() ? " half" : " float");
+}
+
+DenseGrid read_back_vdb(const std::string& path, const std::string& name) {
+  initialize();
+  openvdb::io::File file(path);
+  file.open(false);
+  const auto grid = openvdb::gridPtrCast<FloatGrid>(file.readGrid(name));
   const openvdb::CoordBBox box = grid->evalActiveVoxelBoundingBox();
   DenseGrid dense;
   for (int axis = 0; axis < 3; ++axis) {

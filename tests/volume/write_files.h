@@ -47,7 +47,9 @@ void write_vdb_mixed(const std::string& path, bool with_density_level_set);
 void write_vdb_background(const std::string& path);
 void write_vdb_empty(const std::string& path);
 void write_vdb_far_apart(const std::string& path);
-DenseGrid read_back_vdb(const std::string& path);
+DenseGrid read_back_vdb(const std::string& path, const std::string& name = "density");
+// "fog volume float", "fog volume half": class and type of a grid, as OpenVDB has them.
+std::string vdb_kind(const std::string& path, const std::string& name);
 
 void write_nvdb(const std::string& path, const VdbOptions& options, NvdbValues values);
 void write_nvdb_mixed(const std::string& path);
