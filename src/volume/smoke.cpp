@@ -100,9 +100,9 @@ float density_at(const Plume& plume, NoisePoint p) {
 
 }  // namespace
 
-VolumeGrid make_smoke(const Procedural& smoke, Storage storage, int threads) {
-  const Plume plume = make_plume(smoke);
-  return fill_voxels("density", Lattice({side, 1, side}, smoke.size), storage, threads,
+VolumeGrid make_smoke(const Procedural& procedural, Storage storage, int threads) {
+  const Plume plume = make_plume(procedural);
+  return fill_voxels("density", Lattice({side, 1, side}, procedural.size), storage, threads,
                      [&](NoisePoint p) { return density_at(plume, p); });
 }
 

@@ -142,17 +142,21 @@ void put_leaf_values(ByteWriter& out, const Leaf& leaf, bool half) {
   if (values.position() > 0 || !half) put_packed(out, values.bytes());
 }
 
+// The first voxel of a leaf, from its number in the lower node and that node's in the upper one, which begins at
+// `origin`.
+std::array<std::int64_t, 3> leaf_origin(const std::array<int, 3>& origin, std::uint32_t upper, std::uint32_t lower) {
+  const auto at = [&](std::size_t axis, int shift) {
+    return std::int64_t{origin[axis]} + 128 * ((upper >> (5 * shift)) & 31) + 8 * ((lower >> (4 * shift)) & 15);
+  };
+  return {at(0, 2), at(1, 1), at(2, 0)};
+}
+
 ActiveVoxels find_active(const BrickGrid& grid, const Root& root) {
   ActiveVoxels active;
   for (const auto& [origin, upper] : root)
     for (const auto& [upper_number, lower] : upper)
-      for (const auto& [number, first_word] : lower) {
-        const auto at = [&](std::size_t axis, int shift) {
-          const std::uint32_t u = (upper_number >> (5 * shift)) & 31, l = (number >> (4 * shift)) & 15;
-          return std::int64_t{origin[axis]} + 128 * u + 8 * l;
-        };
-        active.add_leaf({at(0, 2), at(1, 1), at(2, 0)}, make_leaf(grid, first_word).active);
-      }
+      for (const auto& [number, first_word] : lower)
+        active.add_leaf(leaf_origin(origin, upper_number, number), make_leaf(grid, first_word).active);
   return active;
 }
 
