@@ -6,7 +6,8 @@
 //
 // Light is gathered by shadow rays to one light a scattering, chosen in proportion to power, and by paths that meet a
 // light, with the balance heuristic of multiple importance sampling. A constant infinite light is left to paths alone:
-// they find it with less noise than shadow rays do.
+// they find it with less noise than shadow rays do. Light of points in media is gathered along flights as well
+// (light_placement.h), which are aimed at the points (aim.h).
 #pragma once
 
 #include <memory>

@@ -13,6 +13,7 @@ namespace brume {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+
 // Isotropic scattering, sigma_t = 1, everywhere; a lamp of power 1 at an angle to the direction that the camera sees.
 SceneDescription lamp_in_infinite_fog(float albedo, double distance, double angle) {
   SceneDescription s = needle_scene();
