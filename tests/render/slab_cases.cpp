@@ -92,16 +92,6 @@ void add(std::vector<Case>& all, const Slab& slab, const SceneDescription& scene
   all.push_back(c);
 }
 
-void add_two_albedos(std::vector<Case>& all, const std::string& name, float a, float b, float thickness,
-                     const std::vector<Expected>& expected) {
-  const Slab slab{name, "isotropic", {}, 0, thickness, 0, -1, 0, absorption};
-  Case c{name, dark_slab(slab), expected, absorption};
-  add_glow(c.scene, "below", -102, constant_spectrum(1));
-  c.scene.media[0].sigma_a = Spectrum{{1 - a, 1 - b, 1 - b}};
-  c.scene.media[0].sigma_s = Spectrum{{a, b, b}};
-  all.push_back(c);
-}
-
 void add_back_scattering(std::vector<Case>& all, const std::string& name, float albedo, float thickness, double factor,
                          double h) {
   Case c{name, dark_slab({name, "isotropic", {}, albedo, thickness, 0, -1, 0, absorption}), {}, absorption};
@@ -162,9 +152,13 @@ void add_half_spaces(std::vector<Case>& all) {
         Slab{"14_half_space_HG_085_albedo_0999", hg, {0.85f}, 0.999f, 1000, 0.78730, -1, 5e-6, anisotropy, longer}})
     add(all, slab, lit_slab(slab));
 
-  // Two albedos, one a channel. The plane albedo is 1 - H(1) sqrt(1 - w).
-  add_two_albedos(all, "13_half_space_albedos_05_09", 0.5f, 0.9f, 40, {{0.115226, 5e-7}, {0.414947, 5e-7}});
-  add_two_albedos(all, "13_half_space_albedos_099_0999", 0.99f, 0.999f, 300, {{0.752721, 5e-7}, {0.912845, 5e-7}});
+  // The plane albedo is 1 - H(1) sqrt(1 - w).
+  for (const Slab& slab :
+       {Slab{"13_half_space_albedo_05", "isotropic", {}, 0.5f, 40, 0.115226, -1, 5e-7, absorption},
+        Slab{"13_half_space_albedo_09", "isotropic", {}, 0.9f, 40, 0.414947, -1, 5e-7, absorption},
+        Slab{"13_half_space_albedo_099", "isotropic", {}, 0.99f, 100, 0.752721, -1, 5e-7, absorption},
+        Slab{"13_half_space_albedo_0999", "isotropic", {}, 0.999f, 300, 0.912845, -1, 5e-7, absorption}})
+    add(all, slab, lit_slab(slab));
 
   // Light of perpendicular irradiance 1 along the normal comes back along it as w H(1)^2 / (8 pi).
   add_back_scattering(all, "12_H_of_albedo_09", 0.9f, 40, 0.9 / 8, 1.850099);
