@@ -134,11 +134,11 @@ BlinnPhongMaterial read_blinn_phong(ParameterList& p) {
 MaterialDescription Reader::read_material(const std::string& given, const Place& type_place, ParameterList& p) {
   std::string type = given;
   if (type.empty() || type == "none") {
-    messages_.warning(directive_.place, fmt::format("the material \"{}\" is now called \"interface\"", type));
+    messages_.old_spelling(directive_.place, fmt::format("the material \"{}\" is now called \"interface\"", type));
     type = "interface";
   }
   if (type == "matte") {
-    messages_.warning(directive_.place, "the material \"matte\" is now called \"diffuse\"");
+    messages_.old_spelling(directive_.place, "the material \"matte\" is now called \"diffuse\"");
     type = "diffuse";
   }
   MaterialDescription material;

@@ -154,7 +154,7 @@ void Reader::make_named_medium() {
   if (!p.has(ParameterType::string, "type")) throw Abandon{};
   std::string type = p.string("type", "");
   if (type == "heterogeneous") {
-    messages_.warning(directive_.place, "the medium type \"heterogeneous\" is now called \"uniformgrid\"");
+    messages_.old_spelling(directive_.place, "the medium type \"heterogeneous\" is now called \"uniformgrid\"");
     type = "uniformgrid";
   }
   const std::vector<std::string_view> types = {"homogeneous", "uniformgrid", "nanovdb", "vdb", "vol", "procedural"};

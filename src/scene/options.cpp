@@ -183,8 +183,8 @@ void Reader::pixel_filter() {
 void Reader::gaussian_sigma(ParameterList& p) {
   float& sigma = scene_.filter.sigma;
   if (const double alpha = p.number("alpha", 0, Range::at_least(0)); alpha > 0) {
-    messages_.warning(p.place_of(ParameterType::float_, "alpha"),
-                      "\"float alpha\" is now \"float sigma\", which is 1 / sqrt(2 alpha)");
+    messages_.old_spelling(p.place_of(ParameterType::float_, "alpha"),
+                           "\"float alpha\" is now \"float sigma\", which is 1 / sqrt(2 alpha)");
     sigma = static_cast<float>(1 / std::sqrt(2 * alpha));
   }
   sigma = static_cast<float>(p.number("sigma", static_cast<double>(sigma), {0, max_filter_radius, true, false}));

@@ -71,7 +71,7 @@ void ParameterList::add_defaults(const std::vector<Parameter>& defaults) {
 void ParameterList::rename(std::string_view old_name, std::string_view name) {
   for (Parameter& p : parameters_)
     if (p.name == old_name) {
-      messages_.warning(p.place, fmt::format("the parameter \"{}\" is now called \"{}\"", old_name, name));
+      messages_.old_spelling(p.place, fmt::format("the parameter \"{}\" is now called \"{}\"", old_name, name));
       p.name = name;
     }
 }

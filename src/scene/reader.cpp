@@ -17,24 +17,31 @@ constexpr int max_inclusions = 10000;  // in all: files that include each other 
 
 }  // namespace
 
-Reader::Reader(std::string folder, Messages& messages)
-    : folder_(std::move(folder)), messages_(messages), tokens_(messages) {}
+Reader::Reader(Messages& messages) : messages_(messages), tokens_(messages) {}
 
-SceneDescription Reader::read(const std::string& name, std::string_view text) {
-  sources_.push_back(std::make_unique<Source>(Source{name, text, 0}));
+SceneDescription Reader::read(const std::vector<File>& files) {
   try {
-    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
-      messages_.fail({sources_[0].get(), 0, 0, 0}, "is UTF-16 text: save it as UTF-8");
-    if (text.starts_with("\xef\xbb\xbf")) sources_[0]->text.remove_prefix(3);
-    std::error_code ignored;
-    sources_by_name_[std::filesystem::weakly_canonical(name, ignored).string()] = sources_[0].get();
-    tokens_.push(*sources_[0]);
-    read_directives();
+    for (const File& file : files) {
+      open(file);
+      read_directives();
+    }
     check_whole();
   } catch (const Abandon&) {
   } catch (const TooManyErrors&) {
   }
   return std::move(scene_);
+}
+
+void Reader::open(const File& file) {
+  sources_.push_back(std::make_unique<Source>(Source{file.name, file.text, static_cast<int>(sources_.size())}));
+  Source& source = *sources_.back();
+  if (file.text.starts_with("\xff\xfe") || file.text.starts_with("\xfe\xff"))
+    messages_.fail({&source, 0, 0, 0}, "is UTF-16 text: save it as UTF-8");
+  if (file.text.starts_with("\xef\xbb\xbf")) source.text.remove_prefix(3);
+  std::error_code ignored;
+  sources_by_name_[std::filesystem::weakly_canonical(file.name, ignored).string()] = &source;
+  folder_ = file.folder;
+  tokens_.push(source);
 }
 
 const std::vector<Reader::Directive>& Reader::directives() {
@@ -128,7 +135,7 @@ void Reader::world_begin() {
   coordinate_systems_["world"] = Transform();
 }
 
-void Reader::world_end() { messages_.warning(directive_.place, "WorldEnd is no longer needed"); }
+void Reader::world_end() { messages_.old_spelling(directive_.place, "WorldEnd is no longer needed"); }
 
 void Reader::push_state(std::string_view begin) {
   if (stack_.size() >= max_nesting)
@@ -148,7 +155,7 @@ void Reader::pop_state(std::string_view begin, std::string_view end) {
 void Reader::attribute_begin() { push_state("AttributeBegin"); }
 void Reader::attribute_end() { pop_state("AttributeBegin", "AttributeEnd"); }
 void Reader::transform_begin() {
-  messages_.warning(directive_.place, "TransformBegin is now called AttributeBegin, and saves all attributes");
+  messages_.old_spelling(directive_.place, "TransformBegin is now called AttributeBegin, and saves all attributes");
   push_state("TransformBegin");
 }
 void Reader::transform_end() { pop_state("TransformBegin", "TransformEnd"); }
@@ -253,7 +260,7 @@ ParameterList Reader::parameters(const std::string& owner, const std::string& ta
 
 void Reader::modernise(std::string& given, std::string_view old_name, std::string_view name) {
   if (given != old_name) return;
-  messages_.warning(directive_.place, fmt::format("{} \"{}\" is now called \"{}\"", directive_.text, old_name, name));
+  messages_.old_spelling(directive_.place, fmt::format("{} \"{}\" is now called \"{}\"", directive_.text, old_name, name));
   given = name;
 }
 

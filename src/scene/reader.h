@@ -26,11 +26,17 @@ struct GraphicsState {
 
 class Reader {
  public:
-  // Relative file names resolve against `folder`.
-  Reader(std::string folder, Messages& messages);
+  explicit Reader(Messages& messages);
 
-  // Reads a scene; errors are noted in the messages, and the scene is then of no use. `text` must outlive the reader.
-  SceneDescription read(const std::string& name, std::string_view text);
+  // A file of a scene; relative file names in it resolve against `folder`.
+  struct File {
+    std::string name;
+    std::string_view text;
+    std::string folder;
+  };
+  // Reads a scene, file by file; errors are noted in the messages, and the scene is then of no use. The texts must
+  // outlive the reader, and the reader the messages that it noted.
+  SceneDescription read(const std::vector<File>& files);
 
  private:
   enum class Block { options, world, both };
@@ -41,6 +47,7 @@ class Reader {
   };
   static const std::vector<Directive>& directives();
 
+  void open(const File& file);
   void read_directives();
   void read_directive(const Token& word);
   void check_block(const Directive& directive);
@@ -123,7 +130,7 @@ class Reader {
   void check_media_names();
   void check_volumes();
 
-  std::string folder_;
+  std::string folder_;  // of the file being read
   Messages& messages_;
   TokenStream tokens_;
   std::vector<std::unique_ptr<Source>> sources_;
