@@ -77,6 +77,8 @@ void place(const ScatterJob& job, const PathColumns& paths, const TrackColumns& 
     const vec3 begin = origin + t_begin * direction;
     const F whole_length = select(exists, load_lanes(stretches.length + i), F(1.0f));
     F light[3] = {0.0f, 0.0f, 0.0f}, value[3] = {0.0f, 0.0f, 0.0f};
+    vec3 axis(0.0f, 0.0f, 1.0f);
+    F cone_end = -3.0f, cone_start = -2.0f;
     for (int k = 0; k < job.light_count; ++k) {
       const DeltaLight& l = job.lights[k];
       const B chosen = both(pick >= l.pick[0], pick < l.pick[1]);
@@ -84,6 +86,9 @@ void place(const ScatterJob& job, const PathColumns& paths, const TrackColumns& 
         light[c] = select(chosen, F(l.place[c]), light[c]);
         value[c] = select(chosen, F(l.value[c] / (l.pick[1] - l.pick[0])), value[c]);
       }
+      axis = select3(chosen, lanes_of(l.cone.axis), axis);
+      cone_end = select(chosen, F(l.cone.end), cone_end);
+      cone_start = select(chosen, F(l.cone.start), cone_start);
     }
     const vec3 to_light = vec3(light[0], light[1], light[2]) - begin;
     const F nearest = dot(to_light, direction);
@@ -120,7 +125,8 @@ void place(const ScatterJob& job, const PathColumns& paths, const TrackColumns& 
     const F squared = max(dot(from_place, from_place), F(1e-20f)), r = sqrt(squared);
     const vec3 shadow_direction = from_place * (F(1.0f) / r);
     const F mu = min(max(dot(shadow_direction, direction), F(-1.0f)), F(1.0f));
-    const F weight = Phase::eval(mu, phase) / (squared * p.density * mean_rescale);
+    const F falloff = cone_falloff(-dot(shadow_direction, axis), cone_end, cone_start);
+    const F weight = falloff * Phase::eval(mu, phase) / (squared * p.density * mean_rescale);
     F carried[3];
     F largest = 0.0f;
     for (int c = 0; c < 3; ++c) {

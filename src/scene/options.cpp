@@ -16,7 +16,7 @@ constexpr std::int64_t max_samples = std::int64_t{1} << 24;
 constexpr std::int64_t max_depth = 1000000;
 constexpr std::int64_t max_seed = 0xffffffff;
 constexpr double max_filter_radius = 32;  // pixels
-const std::string no_effect = "has no effect";
+constexpr double min_white = 4000, max_white = 25000;  // kelvin: daylight
 
 std::string lower_case(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -48,6 +48,8 @@ void Reader::camera() {
     p.error(p.place(), fmt::format("the shutter of {} must close after it opens; it opens at {} and closes "
                                    "at {}",
                                    p.owner(), open, close));
+  scene_.camera.shutter_open = open;
+  scene_.camera.shutter_close = close;
   p.finish();
 }
 
@@ -82,16 +84,40 @@ void Reader::film() {
   scene_.film.save_fp16 = p.boolean("savefp16", true);
   p.ignore({"float diagonal"});
   crop_window(p);
-  p.warn({"float maxcomponentvalue", "float maxsampleluminance", "float scale"}, no_effect);
-  if (p.number("iso", 100, Range::above(0)) != 100)
-    messages_.warning(p.place_of(ParameterType::float_, "iso"),
-                      "\"float iso\" has no effect: pixels are not scaled by exposure");
-  if (p.number("whitebalance", 0, Range::at_least(0)) != 0)
-    messages_.warning(p.place_of(ParameterType::float_, "whitebalance"), "\"float whitebalance\" has no effect");
-  if (const std::string sensor = p.string("sensor", "cie1931"); sensor != "cie1931")
-    messages_.warning(p.place_of(ParameterType::string, "sensor"),
-                      fmt::format("the sensor \"{}\" has no effect; \"cie1931\" is used", printable(sensor)));
+  sensor(p);
   p.finish();
+}
+
+// What becomes of radiance on the film: exposure, white balance, the picture's colour space.
+void Reader::sensor(ParameterList& p) {
+  FilmDescription& film = scene_.film;
+  film.colour_space = state_.colour_space;
+  p.rename("maxsampleluminance", "maxcomponentvalue");
+  film.max_component = p.number("maxcomponentvalue", film.max_component, Range::above(0));
+  if (const double scale = p.number("scale", 1, Range::above(0)); scale != 1 || p.has(ParameterType::float_, "scale")) {
+    messages_.old_spelling(p.place_of(ParameterType::float_, "scale"),
+                           "\"float scale\" is now \"float iso\", which is 100 times it");
+    film.iso = 100 * scale;
+  }
+  film.iso = p.number("iso", film.iso, Range::above(0));
+  film.white_balance = p.number("whitebalance", 0, Range::from_to(0, max_white));
+  if (film.white_balance > 0 && film.white_balance < min_white)
+    p.value_error(*p.find(ParameterType::float_, "whitebalance"), 0,
+                  fmt::format("must be 0 or from {} to {} kelvin, found {}", min_white, max_white, film.white_balance));
+  const std::string name = p.string("sensor", "cie1931");
+  if (name == "cie1931") return;
+  const std::vector<std::string_view> sensors = {
+      "cie1931",           "canon_eos_100d",     "canon_eos_1dx_mkii", "canon_eos_200d",   "canon_eos_200d_mkii",
+      "canon_eos_5d",      "canon_eos_5d_mkii",  "canon_eos_5d_mkiii", "canon_eos_5d_mkiv", "canon_eos_5ds",
+      "canon_eos_m",       "hasselblad_l1d_20c", "nikon_d810",         "nikon_d850",       "sony_ilce_6400",
+      "sony_ilce_7m3",     "sony_ilce_7rm3",     "sony_ilce_9"};
+  const Place place = p.place_of(ParameterType::string, "sensor");
+  if (contains(sensors, name))
+    messages_.warning(place, fmt::format("the sensor \"{}\" is taken as \"cie1931\": colours are those that eyes see, not "
+                                         "those of the camera",
+                                         name));
+  else
+    messages_.error(place, fmt::format("unknown sensor \"{}\"{}", printable(name), suggestion(name, sensors, {})));
 }
 
 // "cropwindow" in fractions of the picture, or "pixelbounds" in pixels, which the former overrides.
@@ -223,36 +249,63 @@ void Reader::accelerator() {
 void Reader::color_space() {
   const Place place = tokens_.peek().place;
   const std::string name = string_argument("a name");
-  const std::string lower = lower_case(name);
-  if (lower == "srgb") return;
-  if (contains({"rec2020", "dci-p3", "aces2065-1"}, lower))
-    messages_.fail(place,
-                   fmt::format("ColorSpace \"{}\" is not supported yet; colours are in \"srgb\"", printable(name)));
-  messages_.fail(place, fmt::format("unknown ColorSpace \"{}\"; colours are in \"srgb\"", printable(name)));
+  const std::vector<std::string_view> names(colour_space_names.begin(), colour_space_names.end());
+  const auto found = std::find(names.begin(), names.end(), lower_case(name));
+  if (found == names.end())
+    messages_.fail(place, fmt::format("unknown ColorSpace \"{}\"{}", printable(name),
+                                      suggestion(name, names, "it can be \"srgb\", \"rec2020\", \"dci-p3\" or "
+                                                              "\"aces2065-1\"")));
+  state_.colour_space = static_cast<ColourSpace>(found - names.begin());
 }
 
 void Reader::option() {
+  enum class Kind { flag, number, seed, text };
+  struct Known {
+    std::string_view name;
+    Kind kind;
+    std::string_view expected;
+  };
+  static constexpr std::string_view a_flag = "true or false", a_text = "a quoted string";
+  static constexpr Known known[] = {{"seed", Kind::seed, "an integer from 0 to 4294967295"},
+                                    {"disablepixeljitter", Kind::flag, a_flag},
+                                    {"disabletexturefiltering", Kind::flag, a_flag},
+                                    {"disablewavelengthjitter", Kind::flag, a_flag},
+                                    {"forcediffuse", Kind::flag, a_flag},
+                                    {"pixelstats", Kind::flag, a_flag},
+                                    {"wavefront", Kind::flag, a_flag},
+                                    {"displacementedgescale", Kind::number, "a number"},
+                                    {"msereferenceimage", Kind::text, a_text},
+                                    {"msereferenceout", Kind::text, a_text},
+                                    {"rendercoordsys", Kind::text, a_text}};
   const Place place = tokens_.peek().place;
   std::string name = lower_case(string_argument("a name"));
   std::erase_if(name, [](char c) { return c == '-' || c == '_'; });
-  const std::vector<std::string_view> names = {
-      "seed",          "disablepixeljitter", "disabletexturefiltering", "disablewavelengthjitter", "forcediffuse",
-      "pixelstats",    "wavefront",          "displacementedgescale",   "msereferenceimage",       "msereferenceout",
-      "rendercoordsys"};
-  if (!contains(names, name))
+  const auto found = std::find_if(std::begin(known), std::end(known), [&](const Known& k) { return k.name == name; });
+  if (found == std::end(known)) {
+    std::vector<std::string_view> names;
+    for (const Known& k : known) names.push_back(k.name);
     messages_.fail(place, fmt::format("unknown Option \"{}\"{}", printable(name), suggestion(name, names, {})));
-  if (name != "seed") {
-    messages_.warning(place, fmt::format("Option \"{}\" has no effect", name));
-    tokens_.next();
-    return;
   }
   const Token value = tokens_.peek();
   std::int64_t seed = 0;
-  if (read_integer(value.text, seed) != NumberStatus::ok || value.kind != Token::Kind::number || seed < 0)
+  double number = 0;
+  const bool is_number = value.kind == Token::Kind::number, is_string = value.kind == Token::Kind::string;
+  const bool is_true = value.text == "true", is_flag = !is_number && (is_true || value.text == "false");
+  const bool fits = found->kind == Kind::flag   ? is_flag
+                    : found->kind == Kind::text ? is_string
+                    : found->kind == Kind::seed
+                        ? is_number && read_integer(value.text, seed) == NumberStatus::ok && seed >= 0
+                        : is_number && read_number(value.text, number) == NumberStatus::ok;
+  if (!fits)
     messages_.fail(value.place,
-                   fmt::format("Option \"seed\" must be an integer from 0 to {}, found {}", max_seed, describe(value)));
+                   fmt::format("Option \"{}\" must be {}, found {}", name, found->expected, describe(value)));
   tokens_.next();
-  global_seed_ = static_cast<std::uint32_t>(seed);
+  if (found->kind == Kind::flag && is_string)
+    messages_.old_spelling(value.place, "true and false are now written without quotes");
+  if (found->kind == Kind::seed)
+    global_seed_ = static_cast<std::uint32_t>(seed);
+  else if (found->kind != Kind::flag || is_true)  // what is not asked for is not missed
+    messages_.warning(place, fmt::format("Option \"{}\" has no effect", name));
 }
 
 }  // namespace brume

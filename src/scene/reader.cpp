@@ -86,7 +86,7 @@ const std::vector<Reader::Directive>& Reader::directives() {
       {"ObjectBegin", Block::world, &Reader::refused},
       {"ObjectEnd", Block::world, &Reader::refused},
       {"ObjectInstance", Block::world, &Reader::refused},
-      {"Import", Block::world, &Reader::refused},
+      {"Import", Block::world, &Reader::import},
   };
   return all;
 }
@@ -94,6 +94,7 @@ const std::vector<Reader::Directive>& Reader::directives() {
 void Reader::read_directives() {
   for (;;) try {
       const Token token = tokens_.next();
+      while (!imports_.empty() && !tokens_.is_open(imports_.back().depth)) end_import();
       if (token.kind == Token::Kind::end) return;
       if (token.kind != Token::Kind::word)
         messages_.fail(token.place, fmt::format("expected a directive, found {}", describe(token)));
@@ -132,6 +133,7 @@ void Reader::check_block(const Directive& directive) {
 void Reader::world_begin() {
   in_world_ = true;
   state_.ctm = Transform();
+  state_.only_end_is_active = false;
   coordinate_systems_["world"] = Transform();
 }
 
@@ -144,7 +146,8 @@ void Reader::push_state(std::string_view begin) {
 }
 
 void Reader::pop_state(std::string_view begin, std::string_view end) {
-  if (stack_.empty()) messages_.fail(directive_.place, fmt::format("{} without {}", end, begin));
+  if (stack_.size() <= (imports_.empty() ? 0 : imports_.back().stack_size))
+    messages_.fail(directive_.place, fmt::format("{} without {}", end, begin));
   const Saved& saved = stack_.back();
   if (saved.begin != begin)
     messages_.error(directive_.place, fmt::format("{} closes the {} of line {}", end, saved.begin, saved.place.line));
@@ -169,7 +172,7 @@ void Reader::attribute() {
                    fmt::format("unknown Attribute \"{}\"; it is \"shape\", \"light\", \"material\", \"medium\" or "
                                "\"texture\"",
                                printable(target)));
-  std::vector<Parameter> added = read_parameters(tokens_, messages_);
+  std::vector<Parameter> added = read_list();
   auto& defaults = state_.defaults[target];
   std::vector<Parameter> all = defaults ? *defaults : std::vector<Parameter>();
   for (Parameter& p : added) {
@@ -179,7 +182,24 @@ void Reader::attribute() {
   defaults = std::make_shared<const std::vector<Parameter>>(std::move(all));
 }
 
-void Reader::include() {
+void Reader::include() { push_file(); }
+
+void Reader::import() {
+  push_file();
+  imports_.push_back({state_, coordinate_systems_, stack_.size(), tokens_.open_sources().size()});
+}
+
+// Brings back what Import keeps from its file: the file's blocks end with it, and what was set is as it was.
+void Reader::end_import() {
+  Imported& imported = imports_.back();
+  for (; stack_.size() > imported.stack_size; stack_.pop_back())
+    messages_.error(stack_.back().place, fmt::format("this {} has no end", stack_.back().begin));
+  state_ = std::move(imported.state);
+  coordinate_systems_ = std::move(imported.coordinate_systems);
+  imports_.pop_back();
+}
+
+void Reader::push_file() {
   const Place place = tokens_.peek().place;
   const std::string name = string_argument("a file name");
   const Source& source = open_source(resolve(name), place);
@@ -251,8 +271,17 @@ Vector3 Reader::vector_argument() {
   return v;
 }
 
+std::vector<Parameter> Reader::read_list() {
+  std::vector<Parameter> list = read_parameters(tokens_, messages_);
+  for (Parameter& p : list) {
+    p.space = state_.colour_space;
+    if (p.type == ParameterType::spectrum && p.strings.size() == 1) read_spectrum_file(p);
+  }
+  return list;
+}
+
 ParameterList Reader::parameters(const std::string& owner, const std::string& target) {
-  ParameterList list(tokens_, messages_, owner, directive_.place);
+  ParameterList list(read_list(), messages_, owner, directive_.place);
   if (const auto defaults = state_.defaults.find(target); defaults != state_.defaults.end())
     list.add_defaults(*defaults->second);
   return list;

@@ -16,7 +16,9 @@ namespace brume {
 // What AttributeBegin saves and AttributeEnd brings back.
 struct GraphicsState {
   Transform ctm;  // the current transformation matrix: world from object, before WorldBegin camera from world
+  bool only_end_is_active = false;  // transforms change where things move to, which nothing does
   bool reverse_orientation = false;
+  ColourSpace colour_space = ColourSpace::srgb;  // of rgb values
   std::string inside, outside;
   MaterialDescription material;
   std::optional<AreaLight> area_light;
@@ -63,6 +65,9 @@ class Reader {
   void pop_state(std::string_view begin, std::string_view end);
   void attribute();
   void include();
+  void import();
+  void end_import();
+  void push_file();
   void refused();
 
   // Transforms.
@@ -80,6 +85,7 @@ class Reader {
   void reverse_orientation();
   Transform matrix_argument();
   void multiply(const Transform& t);
+  void set_ctm(const Transform& t);
 
   // Options.
   void camera();
@@ -93,6 +99,7 @@ class Reader {
   void option();
   void screen_window(ParameterList& parameters);
   void crop_window(ParameterList& parameters);
+  void sensor(ParameterList& parameters);
 
   // The world.
   void make_named_medium();
@@ -111,6 +118,9 @@ class Reader {
   std::string string_argument(std::string_view what);
   double number_argument();
   Vector3 vector_argument();
+  // The parameters that follow, colours in the current colour space and spectra read from their files.
+  std::vector<Parameter> read_list();
+  void read_spectrum_file(Parameter& parameter);
   // The parameter list of the directive being read, with the defaults of `target` where that is not empty.
   ParameterList parameters(const std::string& owner, const std::string& target = {});
   // The current transformation matrix, which must not be singular, for `what`.
@@ -147,6 +157,14 @@ class Reader {
   };
   std::vector<Saved> stack_;
   std::map<std::string, Transform> coordinate_systems_;
+  // Files that are being imported, and what there was before.
+  struct Imported {
+    GraphicsState state;
+    std::map<std::string, Transform> coordinate_systems;
+    std::size_t stack_size;
+    std::size_t depth;  // of open files, the imported one included
+  };
+  std::vector<Imported> imports_;
   std::map<std::string, MaterialDescription> named_materials_;
   bool in_world_ = false;
   std::optional<std::uint32_t> sampler_seed_, global_seed_;
