@@ -54,7 +54,8 @@ struct Arguments {
   std::vector<std::string> files, outputs;
   int threads = 0;
   double seconds = 0;  // 0: no limit
-  bool example = false, strict = false, partial_images = false, variance = false, quiet = false, help = false, version = false;
+  bool example = false, strict = false, partial_images = false, variance = false, quiet = false, help = false,
+       version = false;
   brume::SceneOptions changes;
 };
 

@@ -10,7 +10,7 @@
 namespace brume {
 
 struct FilmResponse {
-  Matrix3 matrix;  // from Rec.709 radiance to the picture's RGB
+  Matrix3 matrix;                                                // from Rec.709 radiance to the picture's RGB
   float max_component = std::numeric_limits<float>::infinity();  // of a sample; larger ones are scaled down to it
 
   Spectrum operator()(const Spectrum& radiance) const {

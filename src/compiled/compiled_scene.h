@@ -115,9 +115,9 @@ struct CompiledLight {
   Vector3 position;      // point
   LightCone cone;        // point
   Vector3 direction_to;  // distant: unit, towards the light
-  Spectrum value;        // point: intensity on its axis; distant: irradiance of a facing surface; infinite and area: radiance;
-                         // image: a factor
-  float chance = 0;      // with which it is chosen among all lights (see light_cdf)
+  Spectrum value;        // point: intensity on its axis; distant: irradiance of a facing surface; infinite and area:
+                   // radiance; image: a factor
+  float chance = 0;               // with which it is chosen among all lights (see light_cdf)
   std::int32_t environment = -1;  // image: in environments
 
   // Area: its shape, as CompiledShape has it, and its area, which for a quadric is that before the affine map.

@@ -77,8 +77,9 @@ ColourFault named_spectrum(const Parameter& p, ColourUse use, Spectrum& colour) 
   if (use == ColourUse::light)
     if (const auto light = named_light(name)) return colour = *light, ColourFault{};
   const std::string known = use == ColourUse::light
-                                ? suggestion(name, light_spectrum_names(), "lights are stdillum-A, -D50, -D65 and -F1 "
-                                                                           "to -F12, and illum-acesD60")
+                                ? suggestion(name, light_spectrum_names(),
+                                             "lights are stdillum-A, -D50, -D65 and -F1 "
+                                             "to -F12, and illum-acesD60")
                                 : "; it can be pairs of a wavelength and a value, or a file of them";
   return {fmt::format("names \"{}\", which is no spectrum for this and no file{}", printable(name), known), {}, 0};
 }
@@ -147,7 +148,8 @@ Spectrum equal_energy_white() { return at_luminance_1(from_xyz({1, 1, 1})); }
 
 Spectrum blackbody_colour(double kelvin) {
   Vector3 xyz;
-  for (int nm = shortest_wavelength; nm <= longest_wavelength; ++nm) xyz = xyz + planck(nm, kelvin) * matching_functions(nm);
+  for (int nm = shortest_wavelength; nm <= longest_wavelength; ++nm)
+    xyz = xyz + planck(nm, kelvin) * matching_functions(nm);
   return at_luminance_1(from_xyz((1 / xyz.y) * xyz));
 }
 

@@ -60,7 +60,7 @@ struct CameraDescription {
   double fov = 90;                        // degrees across the shorter image side
   std::array<double, 4> screen_window{};  // x0 x1 y0 y1; all 0: from the aspect of the film
   double shutter_open = 0, shutter_close = 1;
-  std::string medium;                     // what the Camera directive records: the outside medium then current, or ""
+  std::string medium;  // what the Camera directive records: the outside medium then current, or ""
   Location location;
 };
 

@@ -5,15 +5,11 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "base/gzip.h"
-
 namespace brume {
 
 namespace {
 
 constexpr std::size_t max_nesting = 10000;  // of attribute blocks
-constexpr std::size_t max_include_depth = 64;
-constexpr int max_inclusions = 10000;  // in all: files that include each other twice would never end
 
 }  // namespace
 
@@ -182,66 +178,7 @@ void Reader::attribute() {
   defaults = std::make_shared<const std::vector<Parameter>>(std::move(all));
 }
 
-void Reader::include() { push_file(); }
-
-void Reader::import() {
-  push_file();
-  imports_.push_back({state_, coordinate_systems_, stack_.size(), tokens_.open_sources().size()});
-}
-
-// Brings back what Import keeps from its file: the file's blocks end with it, and what was set is as it was.
-void Reader::end_import() {
-  Imported& imported = imports_.back();
-  for (; stack_.size() > imported.stack_size; stack_.pop_back())
-    messages_.error(stack_.back().place, fmt::format("this {} has no end", stack_.back().begin));
-  state_ = std::move(imported.state);
-  coordinate_systems_ = std::move(imported.coordinate_systems);
-  imports_.pop_back();
-}
-
-void Reader::push_file() {
-  const Place place = tokens_.peek().place;
-  const std::string name = string_argument("a file name");
-  const Source& source = open_source(resolve(name), place);
-  const auto open = tokens_.open_sources();
-  if (std::find(open.begin(), open.end(), &source) != open.end())
-    messages_.fail(place, fmt::format("\"{}\" includes itself", printable(name)));
-  if (open.size() >= max_include_depth)
-    messages_.fail(place, fmt::format("files are included more than {} deep", max_include_depth));
-  if (++inclusions_ > max_inclusions)
-    messages_.fail(place, fmt::format("more than {} files are included", max_inclusions));
-  tokens_.push(source);
-}
-
 void Reader::refused() { messages_.fail(directive_.place, fmt::format("{} is not supported yet", directive_.text)); }
-
-std::string Reader::resolve(const std::string& filename) const {
-  namespace fs = std::filesystem;
-  std::error_code ignored;
-  if (folder_.empty() || fs::path(filename).is_absolute()) return filename;
-  const std::string in_folder = (fs::path(folder_) / filename).string();
-  return fs::exists(in_folder, ignored) ? in_folder : filename;
-}
-
-const Source& Reader::open_source(const std::string& filename, const Place& place) {
-  namespace fs = std::filesystem;
-  std::error_code ignored;
-  const fs::path canonical = fs::weakly_canonical(filename, ignored);
-  const std::string key = canonical.empty() ? filename : canonical.string();
-  if (const auto known = sources_by_name_.find(key); known != sources_by_name_.end()) return *known->second;
-  if (!fs::exists(filename, ignored))
-    messages_.fail(place, fmt::format("there is no file \"{}\"", printable(filename)));
-  if (!fs::is_regular_file(filename, ignored))
-    messages_.fail(place, fmt::format("\"{}\" is not a file", printable(filename)));
-  std::string& text = texts_[key];
-  try {
-    text = read_file_unpacked(filename);
-  } catch (const InputError& e) {
-    messages_.fail(place, fmt::format("\"{}\" {}", printable(filename), e.diagnostics().front().message));
-  }
-  sources_.push_back(std::make_unique<Source>(Source{filename, text, static_cast<int>(sources_.size())}));
-  return *(sources_by_name_[key] = sources_.back().get());
-}
 
 std::string Reader::string_argument(std::string_view what) {
   const Token& token = tokens_.peek();
@@ -289,7 +226,8 @@ ParameterList Reader::parameters(const std::string& owner, const std::string& ta
 
 void Reader::modernise(std::string& given, std::string_view old_name, std::string_view name) {
   if (given != old_name) return;
-  messages_.old_spelling(directive_.place, fmt::format("{} \"{}\" is now called \"{}\"", directive_.text, old_name, name));
+  messages_.old_spelling(directive_.place,
+                         fmt::format("{} \"{}\" is now called \"{}\"", directive_.text, old_name, name));
   given = name;
 }
 

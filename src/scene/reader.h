@@ -1,5 +1,5 @@
 // The reader of scene files: one member function per directive, in reader.cpp (blocks, includes, names),
-// transforms.cpp, options.cpp, media.cpp, shapes.cpp, materials.cpp and lights.cpp.
+// transforms.cpp, files.cpp, film.cpp, options.cpp, media.cpp, shapes.cpp, materials.cpp and lights.cpp.
 #pragma once
 
 #include <map>

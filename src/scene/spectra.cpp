@@ -21,11 +21,11 @@ struct NamedLight {
   Chromaticity white;
 };
 constexpr NamedLight named_lights[] = {
-    {"stdillum-A", {0.44758, 0.40745}},   {"stdillum-D50", {0.34567, 0.35851}},  {"stdillum-D65", {0.31270, 0.32900}},
-    {"stdillum-F1", {0.31310, 0.33727}},  {"stdillum-F2", {0.37208, 0.37529}},   {"stdillum-F3", {0.40910, 0.39430}},
-    {"stdillum-F4", {0.44018, 0.40329}},  {"stdillum-F5", {0.31379, 0.34531}},   {"stdillum-F6", {0.37790, 0.38835}},
-    {"stdillum-F7", {0.31292, 0.32933}},  {"stdillum-F8", {0.34588, 0.35875}},   {"stdillum-F9", {0.37417, 0.37281}},
-    {"stdillum-F10", {0.34609, 0.35986}}, {"stdillum-F11", {0.38052, 0.37713}},  {"stdillum-F12", {0.43695, 0.40441}},
+    {"stdillum-A", {0.44758, 0.40745}},   {"stdillum-D50", {0.34567, 0.35851}}, {"stdillum-D65", {0.31270, 0.32900}},
+    {"stdillum-F1", {0.31310, 0.33727}},  {"stdillum-F2", {0.37208, 0.37529}},  {"stdillum-F3", {0.40910, 0.39430}},
+    {"stdillum-F4", {0.44018, 0.40329}},  {"stdillum-F5", {0.31379, 0.34531}},  {"stdillum-F6", {0.37790, 0.38835}},
+    {"stdillum-F7", {0.31292, 0.32933}},  {"stdillum-F8", {0.34588, 0.35875}},  {"stdillum-F9", {0.37417, 0.37281}},
+    {"stdillum-F10", {0.34609, 0.35986}}, {"stdillum-F11", {0.38052, 0.37713}}, {"stdillum-F12", {0.43695, 0.40441}},
     {"illum-acesD60", {0.32168, 0.33767}}};
 
 // Walks along a spectrum: the value at wavelengths that only increase.

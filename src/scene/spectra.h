@@ -22,9 +22,9 @@ double d65_power(double nm);
 enum class SpectrumOf { light, property };
 
 // The colour of the spectrum that runs straight between its points and is 0 beyond them; `pairs` holds increasing
-// wavelengths in nm, each followed by a value. The CIE 1931 matching functions are a fit (scene/colour.h) whose white is
-// off by some ten-thousandths; colours are taken relative to D65 as the fit sees it, so that D65 has equal R, G and B.
-// Channels may be negative: there are colours that Rec.709 cannot say. Of a light without power, black.
+// wavelengths in nm, each followed by a value. The CIE 1931 matching functions are a fit (scene/colour.h) whose white
+// is off by some ten-thousandths; colours are taken relative to D65 as the fit sees it, so that D65 has equal R, G and
+// B. Channels may be negative: there are colours that Rec.709 cannot say. Of a light without power, black.
 Spectrum spectrum_colour(const std::vector<double>& pairs, SpectrumOf of);
 
 // pbrt's lights: stdillum-A, -D50, -D65, -F1 to -F12, and illum-acesD60.

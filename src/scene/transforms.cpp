@@ -114,8 +114,7 @@ void Reader::active_transform() {
                    fmt::format("ActiveTransform takes All, StartTime or EndTime, found {}", describe(token)));
   state_.only_end_is_active = token.text == "EndTime";
   if (token.text != "All")
-    messages_.warning(token.place,
-                      "nothing moves while the shutter is open: things stay where they are when it opens");
+    messages_.warning(token.place, "nothing moves while the shutter is open: things stay where they are when it opens");
 }
 
 void Reader::transform_times() {

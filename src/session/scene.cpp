@@ -76,9 +76,7 @@ Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 Scene::~Scene() = default;
 
-Scene Scene::load(const std::string& path, std::vector<std::string>& warnings) {
-  return load_files({path}, warnings);
-}
+Scene Scene::load(const std::string& path, std::vector<std::string>& warnings) { return load_files({path}, warnings); }
 
 Scene Scene::load_files(const std::vector<std::string>& paths, std::vector<std::string>& warnings, bool strict) {
   return with_public_errors([&] {

@@ -54,8 +54,9 @@ TEST(FilmResponse, WhiteBalanceMakesDaylightGrey) {
     s.film.white_balance = 6504;
     const Spectrum twin = response(s)(light(white));
     EXPECT_GT(std::abs(twin[0] - twin[2]), 0.1f);
-    expect_near(twin, {static_cast<double>(light(white)[0]), static_cast<double>(light(white)[1]),
-                       static_cast<double>(light(white)[2])},
+    expect_near(twin,
+                {static_cast<double>(light(white)[0]), static_cast<double>(light(white)[1]),
+                 static_cast<double>(light(white)[2])},
                 2e-3);
   }
 }
@@ -65,9 +66,9 @@ TEST(FilmResponse, ColourSpacesHoldTheSameLight) {
     SceneDescription s = needle_scene();
     s.film.colour_space = space;
     const Spectrum there = response(s)({{0.2f, 0.5f, 0.9f}});
-    const Vector3 back = rec709_from(space, Whites::kept) *
-                         Vector3{static_cast<double>(there[0]), static_cast<double>(there[1]),
-                                 static_cast<double>(there[2])};
+    const Vector3 back =
+        rec709_from(space, Whites::kept) *
+        Vector3{static_cast<double>(there[0]), static_cast<double>(there[1]), static_cast<double>(there[2])};
     expect_near({{0.2f, 0.5f, 0.9f}}, back, 1e-6);
     EXPECT_GT(std::abs(there[0] - 0.2f), 0.02f);
   }

@@ -41,10 +41,8 @@ void run(std::string_view bytes) {
 }  // namespace
 
 const std::vector<FuzzTarget>& fuzz_targets() {
-  static const std::vector<FuzzTarget> all = {{"scene", run<read_as_scene>},
-                                              {"ply", run<read_as_ply>},
-                                              {"vol", run<read_as_vol>},
-                                              {"gzip", run<read_as_gzip>}};
+  static const std::vector<FuzzTarget> all = {
+      {"scene", run<read_as_scene>}, {"ply", run<read_as_ply>}, {"vol", run<read_as_vol>}, {"gzip", run<read_as_gzip>}};
   return all;
 }
 

@@ -1,5 +1,5 @@
-// What is fed with bytes of any kind: each target reads them as one of the formats of which we have a reader of our own,
-// and returns where they are good or refused by InputError. Whatever else happens is a fault.
+// What is fed with bytes of any kind: each target reads them as one of the formats of which we have a reader of our
+// own, and returns where they are good or refused by InputError. Whatever else happens is a fault.
 #pragma once
 
 #include <string_view>

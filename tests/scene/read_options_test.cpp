@@ -9,7 +9,8 @@ namespace {
 
 TEST(ReadFilm, ExposureWhiteBalanceAndColourSpace) {
   const SceneDescription s = scene_of(
-      "ColorSpace \"rec2020\" Film \"rgb\" \"float iso\" 200 \"float whitebalance\" 5000 \"float maxcomponentvalue\" 10 "
+      "ColorSpace \"rec2020\" Film \"rgb\" \"float iso\" 200 \"float whitebalance\" 5000 \"float maxcomponentvalue\" "
+      "10 "
       "ColorSpace \"srgb\" Camera \"perspective\" \"float shutteropen\" 0.5 \"float shutterclose\" 1.5 WorldBegin");
   EXPECT_EQ(s.film.colour_space, ColourSpace::rec2020);
   EXPECT_EQ(s.film.iso, 200);
@@ -43,8 +44,8 @@ TEST_F(Import, KeepsWhatIsMadeAndForgetsWhatIsSet) {
         "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" MediumInterface \"m\" CoordinateSystem \"there\" "
         "Attribute \"shape\" \"float radius\" 7 Include \"ball.inc\"");
   write("ball.inc", "Translate 0 2 0 Shape \"sphere\"");
-  const SceneDescription s =
-      read("WorldBegin Import \"thing.pbrt\" Shape \"sphere\" NamedMaterial \"grey\" Shape \"sphere\" \"float radius\" 2");
+  const SceneDescription s = read(
+      "WorldBegin Import \"thing.pbrt\" Shape \"sphere\" NamedMaterial \"grey\" Shape \"sphere\" \"float radius\" 2");
   ASSERT_EQ(s.shapes.size(), 3u);
   EXPECT_EQ(s.shapes[0].world_from_object, translate({1, 2, 0}));
   EXPECT_EQ(std::get<SphereShape>(s.shapes[0].kind).radius, 7);

@@ -12,7 +12,8 @@ namespace brume {
 namespace {
 
 void expect_near(const Spectrum& found, std::array<double, 3> expected, double tolerance) {
-  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(found[static_cast<int>(c)], expected[c], tolerance) << "channel " << c;
+  for (std::size_t c = 0; c < 3; ++c)
+    EXPECT_NEAR(found[static_cast<int>(c)], expected[c], tolerance) << "channel " << c;
 }
 
 std::vector<double> sampled(double (*value)(double)) {
@@ -49,8 +50,8 @@ TEST(Spectra, D65IsWhite) {
   EXPECT_GT(unbalanced.y - unbalanced.x, 3e-4);
 }
 
-// Illuminant A is Planck's law at 2848 K with the radiation constant of 1931, 2856 K with today's: the sampled spectrum,
-// the named one and the blackbody must agree. Source: CIE 15:2004.
+// Illuminant A is Planck's law at 2848 K with the radiation constant of 1931, 2856 K with today's: the sampled
+// spectrum, the named one and the blackbody must agree. Source: CIE 15:2004.
 TEST(Spectra, IlluminantAIsABlackbody) {
   const Spectrum named = light_of("\"spectrum L\" \"stdillum-A\"");
   const auto planck = [](double nm) {
@@ -105,8 +106,7 @@ TEST(Spectra, FilesOfPairsAreReadBesideTheScene) {
     }
     return "";
   };
-  EXPECT_EQ(error("bad.spd"),
-            "\"" + folder + "/bad.spd\" is no file of pairs of numbers: line 2 has the word one");
+  EXPECT_EQ(error("bad.spd"), "\"" + folder + "/bad.spd\" is no file of pairs of numbers: line 2 has the word one");
   EXPECT_EQ(error("empty.spd"), "\"" + folder + "/empty.spd\" is a file without any numbers");
   fs::remove_all(folder);
 }

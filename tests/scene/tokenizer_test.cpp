@@ -116,8 +116,8 @@ TEST(Tokenizer, FastPathStopsBeforeWhatIsNoNumber) {
   EXPECT_EQ(stream.next().text, "5");
 }
 
-// Short numbers have a way of their own; to the last bit it is the long one. Digits, points and signs at random, 1 to 20
-// of them, are numbers or not.
+// Short numbers have a way of their own; to the last bit it is the long one. Digits, points and signs at random, 1 to
+// 20 of them, are numbers or not.
 TEST(Tokenizer, FastPathReadsNumbersAsTheSlowOneDoes) {
   std::mt19937 random(3);
   int numbers = 0, others = 0;
