@@ -97,7 +97,7 @@ DielectricMaterial read_dielectric(ParameterList& p) {
   }
   const std::string name = spectrum_name(p, "eta");
   if (name.empty()) {
-    m.eta = p.colour("eta", constant_spectrum(m.eta), ColourUse::coefficient)[0];
+    m.eta = p.colour("eta", constant_spectrum(m.eta), ColourUse::coefficient)[1];  // in green
     if (!(m.eta >= static_cast<float>(least_index) && m.eta <= static_cast<float>(greatest_index)))
       p.value_error(*p.find(ParameterType::spectrum, "eta"), 1,
                     fmt::format("must be from {} to {}, found {}", least_index, greatest_index, m.eta));
