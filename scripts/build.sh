@@ -8,7 +8,11 @@ preset=${1:?usage: scripts/build.sh PRESET [TARGET...]}
 shift
 folder=build/$preset
 
-scripts/setup.sh
+if [[ $preset == fuzz ]]; then
+  scripts/setup.sh clang libclang-rt-dev
+else
+  scripts/setup.sh
+fi
 
 if [[ ! -f $folder/build.ninja ]]; then
   echo "build: configuring $preset"

@@ -43,18 +43,19 @@ const char* const help_text =
   --version, --help     BRUME_ISA=avx512|avx2|sse4|scalar in the environment chooses
                         the instruction set that --version shows
 
-A scene may be packed (.pbrt.gz) or come from the standard input (-). A volume on its own is
-framed and lit. Ctrl-C saves what is rendered so far; a second Ctrl-C ends at once.
-
+A scene may be packed (.pbrt.gz) or come from the standard input (-); several files are read as
+one. --strict refuses old spellings. A volume on its own is framed and lit. Ctrl-C saves what is
+rendered so far; a second Ctrl-C ends at once. Examples:
   brume smoke.vdb -o smoke.png -o smoke.exr
   brume scene.pbrt --spp 64 --resolution 1280x720)";
 
 struct Arguments {
-  std::string file, grid, write_scene;
-  std::vector<std::string> outputs;
+  std::string grid, write_scene;
+  std::vector<std::string> files, outputs;
   int threads = 0;
   double seconds = 0;  // 0: no limit
-  bool example = false, partial_images = false, variance = false, quiet = false, help = false, version = false;
+  bool example = false, strict = false, partial_images = false, variance = false, quiet = false, help = false,
+       version = false;
   brume::SceneOptions changes;
 };
 
@@ -85,7 +86,7 @@ Arguments parse_arguments(const std::vector<std::string>& given) {
   std::string samples, seconds, seed, threads, resolution, crop_window;
   CLI::App app;
   app.set_help_flag();  // help and version are ours
-  app.add_option("SCENE", a.file);
+  app.add_option("SCENE", a.files);
   app.add_option("-o,--output", a.outputs)->allow_extra_args(false);
   app.add_option("--spp", samples);
   app.add_option("--time", seconds);
@@ -97,6 +98,7 @@ Arguments parse_arguments(const std::vector<std::string>& given) {
   app.add_option("--grid", a.grid);
   app.add_option("--write-scene", a.write_scene);
   app.add_flag("--example", a.example);
+  app.add_flag("--strict", a.strict);
   app.add_flag("--write-partial-images", a.partial_images);
   app.add_flag("--variance", a.variance);
   app.add_flag("--quiet", a.quiet);
@@ -111,10 +113,10 @@ Arguments parse_arguments(const std::vector<std::string>& given) {
   if (!threads.empty()) a.threads = static_cast<int>(parse_number("--nthreads", threads, 0, 4096));
   if (!resolution.empty()) parse_resolution(resolution, a.changes);
   if (!crop_window.empty()) a.changes.crop_window = parse_crop_window(crop_window);
-  if (a.file.empty() && !a.example)
+  if (a.files.empty() && !a.example)
     throw UsageError("a scene or a volume to render is missing; brume --help shows how");
-  if (!a.file.empty() && a.example) throw UsageError("--example takes no scene or volume");
-  if (!a.grid.empty() && a.example) throw UsageError("--grid is for a volume file");
+  if (!a.files.empty() && a.example) throw UsageError("--example takes no scene or volume");
+  if (!a.grid.empty() && a.files.size() != 1) throw UsageError("--grid is for a volume file");
   return a;
 }
 
@@ -124,9 +126,9 @@ void say(const Arguments& a, const std::string& line) {
 
 brume::Scene load(const Arguments& a) {
   if (a.example) return brume::Scene::example();
-  if (!a.grid.empty()) return brume::Scene::frame_volume(a.file, a.grid);
+  if (!a.grid.empty()) return brume::Scene::frame_volume(a.files[0], a.grid);
   std::vector<std::string> warnings;
-  brume::Scene scene = brume::Scene::load(a.file, warnings);
+  brume::Scene scene = brume::Scene::load_files(a.files, warnings, a.strict);
   for (const std::string& warning : warnings) say(a, warning);
   return scene;
 }

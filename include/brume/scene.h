@@ -34,6 +34,10 @@ class Scene {
   // Reads a scene (.pbrt, .pbrt.gz, or "-" for the standard input) or frames a volume (.vdb, .nvdb, .vol). Warnings,
   // ready to be shown, are appended to `warnings`. Throws Error, as all that follow do.
   static Scene load(const std::string& path, std::vector<std::string>& warnings);
+  // Reads several scene files, one after another, as one scene, or does with one file what load does. Where `strict`,
+  // old spellings of the scene language are errors and not warnings.
+  static Scene load_files(const std::vector<std::string>& paths, std::vector<std::string>& warnings,
+                          bool strict = false);
   // A volume on its own: the grid framed by a camera, lit by sun and sky, its extinction scaled to the optical depth
   // that framing_note() states. `grid` empty: "density", or the only grid that can be rendered.
   static Scene frame_volume(const std::string& path, const std::string& grid = {});

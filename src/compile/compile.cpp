@@ -7,6 +7,24 @@
 
 namespace brume {
 
+namespace {
+
+// Exposure; the light that is to be white, made so; the picture's colour space.
+FilmResponse film_response(const FilmDescription& film, const CameraDescription& camera) {
+  FilmResponse response;
+  response.max_component = static_cast<float>(film.max_component);
+  const double exposure = (camera.shutter_close - camera.shutter_open) * film.iso / 100;
+  if (exposure != 1) response.matrix = exposure * response.matrix;
+  if (film.colour_space == ColourSpace::srgb && film.white_balance == 0) return response;
+  Matrix3 xyz = xyz_from(ColourSpace::srgb);
+  if (film.white_balance > 0)
+    xyz = white_adaptation(daylight(film.white_balance), primaries(film.colour_space).white) * xyz;
+  response.matrix = exposure * (inverse(xyz_from(film.colour_space)) * xyz);
+  return response;
+}
+
+}  // namespace
+
 CompiledScene compile(const SceneDescription& scene, int threads, std::vector<Diagnostic>& warnings) {
   return Compiler(scene, threads).run(warnings);
 }
@@ -20,6 +38,7 @@ CompiledScene Compiler::run(std::vector<Diagnostic>& warnings) {
   compiled_.sampler =
       scene_.sampler.kind == SamplerDescription::Kind::zsobol ? SamplerKind::zsobol : SamplerKind::independent;
   compiled_.filter = scene_.filter;
+  compiled_.film_response = film_response(scene_.film, scene_.camera);
   add_camera();
   add_integrator();
   add_lights();

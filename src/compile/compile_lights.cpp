@@ -98,12 +98,25 @@ double world_area(const CompiledQuadric& q) {
   return sum / (steps * steps) * sweep * (sphere ? 2 : 1);
 }
 
+LightCone cone_of(const SpotLight& spot) {
+  const Vector3 axis = normalize(spot.to - spot.from);
+  const auto cosine = [](double degrees) { return static_cast<float>(std::cos(degrees * pi / 180)); };
+  return {{static_cast<float>(axis.x), static_cast<float>(axis.y), static_cast<float>(axis.z)},
+          cosine(spot.cone_angle),
+          cosine(spot.cone_angle - spot.cone_delta)};
+}
+
 }  // namespace
 
 void Compiler::add_lights() {
   for (const LightDescription& light : scene_.lights) {
     CompiledLight c;
-    if (const auto* point = std::get_if<PointLight>(&light.kind)) {
+    if (const auto* spot = std::get_if<SpotLight>(&light.kind)) {
+      c.kind = CompiledLight::Kind::point;
+      c.position = spot->from;
+      c.value = spot->intensity;
+      c.cone = cone_of(*spot);
+    } else if (const auto* point = std::get_if<PointLight>(&light.kind)) {
       c.kind = CompiledLight::Kind::point;
       c.position = point->from;
       c.value = point->intensity;
@@ -219,7 +232,7 @@ void Compiler::add_light_choice() {
   for (std::size_t i = 0; i < n; ++i) {
     const CompiledLight& light = compiled_.lights[i];
     powers[i] = mean(light.value);
-    if (light.kind == CompiledLight::Kind::point) powers[i] *= 4 * pi;
+    if (light.kind == CompiledLight::Kind::point) powers[i] *= 4 * pi * static_cast<double>(light.cone.share());
     if (light.kind == CompiledLight::Kind::distant) powers[i] *= disk;
     if (light.kind == CompiledLight::Kind::infinite) powers[i] *= 4 * pi * disk;
     if (light.kind == CompiledLight::Kind::image)

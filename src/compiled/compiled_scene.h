@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/film_response.h"
 #include "base/geometry.h"
 #include "base/pixel_box.h"
 #include "base/pixel_filter.h"
@@ -114,13 +115,23 @@ struct CompiledShape {
   std::int32_t light = -1;     // the area light that it is; below 0: none
 };
 
+// The directions in which a point light shines, about a unit axis (kernel/cone.inl): all of them, where nothing else is
+// said.
+struct LightCone {
+  kernel::vec3 axis{0, 0, 1};
+  float end = -3, start = -2;  // cosines
+  // The mean of its fall-off over all directions.
+  float share() const { return start < -1 ? 1 : 0.5f * (1 - 0.5f * (start + end)); }
+};
+
 struct CompiledLight {
   enum class Kind { point, distant, infinite, image, area } kind = Kind::point;
   Vector3 position;      // point
+  LightCone cone;        // point
   Vector3 direction_to;  // distant: unit, towards the light
-  Spectrum value;        // point: intensity; distant: irradiance of a facing surface; infinite and area: radiance;
-                         // image: a factor
-  float chance = 0;      // with which it is chosen among all lights (see light_cdf)
+  Spectrum value;        // point: intensity on its axis; distant: irradiance of a facing surface; infinite and area:
+                   // radiance; image: a factor
+  float chance = 0;               // with which it is chosen among all lights (see light_cdf)
   std::int32_t environment = -1;  // image: in environments
 
   // Area: its shape, as CompiledShape has it, and its area, which for a quadric is that before the affine map.
@@ -168,6 +179,7 @@ struct CompiledScene {
   std::uint32_t seed = 0;
   SamplerKind sampler = SamplerKind::independent;
   PixelFilter filter;
+  FilmResponse film_response;
   CompiledCamera camera;
   CompiledIntegrator integrator;
 

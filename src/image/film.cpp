@@ -16,8 +16,11 @@ bool is_finite(const Spectrum& s) {
 
 }  // namespace
 
-Film::Film(int width, int height)
-    : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
+Film::Film(int width, int height, const FilmResponse& response)
+    : width_(width),
+      height_(height),
+      response_(response),
+      pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
 
 void Film::add(int x, int y, const Spectrum& radiance) {
   Pixel& pixel = pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
@@ -25,8 +28,9 @@ void Film::add(int x, int y, const Spectrum& radiance) {
     ++pixel.invalid;
     return;
   }
+  const Spectrum rgb = response_(radiance);
   for (int c = 0; c < channel_count; ++c) {
-    const double value = radiance[c];
+    const double value = rgb[c];
     pixel.sum[c] += value;
     pixel.sum_squares[c] += value * value;
   }

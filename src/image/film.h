@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/film_response.h"
 #include "base/spectrum.h"
 #include "image/image.h"
 
@@ -14,7 +15,8 @@ namespace brume {
 // bits do not depend on the order in which tiles are rendered.
 class Film {
  public:
-  Film(int width, int height);
+  // `response` is what it makes of radiance.
+  Film(int width, int height, const FilmResponse& response = {});
   int width() const { return width_; }
   int height() const { return height_; }
 
@@ -37,6 +39,7 @@ class Film {
     std::int32_t count = 0, invalid = 0;
   };
   int width_, height_;
+  FilmResponse response_;
   std::vector<Pixel> pixels_;
 };
 

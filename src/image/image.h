@@ -6,11 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "base/colour_space.h"
 #include "base/geometry.h"
 
 namespace brume {
 
-// Scene-linear Rec.709, rows from the top, three floats a pixel.
+// Scene-linear, in Rec.709 or in the colour space of its metadata; rows from the top, three floats a pixel.
 struct Image {
   int width = 0, height = 0;
   std::vector<float> pixels;      // width * height * 3
@@ -25,6 +26,7 @@ struct ImageMetadata {
   // EXR worldToNDC, a projective matrix for columns: x, y in [0, 1] across the picture, y down, after division by w.
   std::array<std::array<double, 4>, 4> ndc_from_world{};
   std::uint32_t seed = 0;
+  ColourSpace colour_space = ColourSpace::srgb;  // of the pixels; EXR chromaticities. A PNG is turned into sRGB
   // EXR only, of a picture that is a part of a larger one (dataWindow within displayWindow): the place of its first
   // pixel, and the size of the whole; 0: it is whole.
   int x = 0, y = 0, whole_width = 0, whole_height = 0;

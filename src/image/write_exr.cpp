@@ -9,6 +9,7 @@
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfMatrixAttribute.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
 #include <algorithm>
@@ -47,6 +48,11 @@ Imath::M44f row_vector_matrix(const std::array<std::array<double, 4>, 4>& m) {
   return r;
 }
 
+Imf::Chromaticities chromaticities(const Primaries& p) {
+  const auto point = [](Chromaticity c) { return Imath::V2f(static_cast<float>(c.x), static_cast<float>(c.y)); };
+  return {point(p.red), point(p.green), point(p.blue), point(p.white)};
+}
+
 Imf::Header make_header(const Image& image, const ImageMetadata& metadata) {
   const Imath::V2i first(metadata.x, metadata.y);
   const Imath::Box2i data_window(first, first + Imath::V2i(image.width - 1, image.height - 1));
@@ -65,6 +71,8 @@ Imf::Header make_header(const Image& image, const ImageMetadata& metadata) {
   // An attribute of integers is signed; a seed is not.
   header.insert("seed", Imf::StringAttribute(std::to_string(metadata.seed)));
   header.insert("partial", Imf::IntAttribute(metadata.partial ? 1 : 0));
+  if (metadata.colour_space != ColourSpace::srgb)
+    Imf::addChromaticities(header, chromaticities(primaries(metadata.colour_space)));
   header.insert("software", Imf::StringAttribute(metadata.software));
   return header;
 }

@@ -77,6 +77,15 @@ std::string comment(const ImageMetadata& metadata) {
                      metadata.render_time_seconds, metadata.partial ? ", partial: stopped before its end" : "");
 }
 
+void to_rec709(ColourSpace space, std::vector<float>& pixels) {
+  const Matrix3 matrix = rec709_from(space, Whites::kept);
+  for (std::size_t i = 0; i + 2 < pixels.size(); i += 3) {
+    const Vector3 rgb = matrix * Vector3{static_cast<double>(pixels[i]), static_cast<double>(pixels[i + 1]),
+                                         static_cast<double>(pixels[i + 2])};
+    for (int c = 0; c < 3; ++c) pixels[i + static_cast<std::size_t>(c)] = static_cast<float>(rgb[c]);
+  }
+}
+
 }  // namespace
 
 std::uint8_t srgb_from_linear(float linear) {
@@ -87,8 +96,10 @@ std::uint8_t srgb_from_linear(float linear) {
 }
 
 std::string encode_png(const Image& image, const ImageMetadata& metadata) {
-  std::vector<png_byte> values(image.pixels.size());
-  std::transform(image.pixels.begin(), image.pixels.end(), values.begin(), srgb_from_linear);
+  std::vector<float> pixels = image.pixels;
+  if (metadata.colour_space != ColourSpace::srgb) to_rec709(metadata.colour_space, pixels);
+  std::vector<png_byte> values(pixels.size());
+  std::transform(pixels.begin(), pixels.end(), values.begin(), srgb_from_linear);
   std::vector<const png_byte*> rows;
   for (int y = 0; y < image.height; ++y)
     rows.push_back(values.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) * 3);

@@ -22,7 +22,7 @@ void load_u32_pair(uint array, uint pair, out uint first, out uint second) {
 #include "kernel/all.inl"
 #include "kernel/phase_dispatch.glsl"
 
-const uint result_count = 28;
+const uint result_count = 29;
 
 void main() {
   uint id = gl_GlobalInvocationID.x;
@@ -71,6 +71,7 @@ void main() {
   results[out_index + 24] = turned.x + turned.y + turned.z;
   results[out_index + 25] = aimed_density(axis, normalize(direction));
   results[out_index + 26] = aimed_strength(u[6], u[7], u[8]);
+  results[out_index + 28] = cone_falloff(u[6], u[7], u[8]);
 
   uint first, second;
   sobol_pair(words[0], id & 63u, id >> 6, 16u, words[1], 0u, first, second);

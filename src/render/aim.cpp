@@ -30,9 +30,10 @@ Aim make_aim(const CompiledScene& scene, const MediaAlongRay& media) {
   for (const CompiledLight& light : scene.lights) {
     if (light.kind != CompiledLight::Kind::point) continue;
     const Vector3& p = light.position;
-    // A flight at an angle alpha gathers sigma_s I / (4 pi) (pi - alpha) / sin alpha; the mean over the sphere.
-    const float strength =
-        mean_sigma_s_at(scene, media, p) * static_cast<float>(mean(light.value) * std::numbers::pi / 16);
+    // A flight at an angle alpha gathers sigma_s I / (4 pi) (pi - alpha) / sin alpha; the mean over the sphere. Of a
+    // cone of light it gathers a part.
+    const float strength = mean_sigma_s_at(scene, media, p) * light.cone.share() *
+                           static_cast<float>(mean(light.value) * std::numbers::pi / 16);
     if (strength > 0)
       aim.lights.push_back({{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}, strength});
   }

@@ -22,6 +22,27 @@ HWY_INLINE NearStretch near_stretch(F length, F near_squared, F nearest, F dista
   return {begin, min(max(nearest + half_chord, F(0.0f)), length) - begin};
 }
 
+// The part of a stretch that a light reaches whose cone is narrower than half of all directions; of others, the
+// stretch. At t the flight is at w = from_light + t direction from the light, and within the cone where w.axis > cosine
+// |w|: a quadratic in t, which also holds in the mirror image of the cone behind the light.
+HWY_INLINE NearStretch lit_stretch(NearStretch whole, vec3 from_light, vec3 direction, vec3 axis, F cone_end) {
+  const F cosine = cone_end - 1e-3f;  // a little wider, so that rounding cuts nothing off
+  const F square = cosine * cosine, along = dot(direction, axis), height = dot(from_light, axis);
+  const F a = along * along - square, b = along * height - square * dot(direction, from_light);
+  const F c = height * height - square * dot(from_light, from_light), discriminant = b * b - a * c;
+  const F root = sqrt(max(discriminant, F(0.0f)));
+  const F sum = b + select(b < 0.0f, -root, root), q = -select(abs(sum) < F(1e-30f), F(1e-30f), sum);
+  const F first = min(q / a, c / q), second = max(q / a, c / q);
+  // Flatter than the cone, a flight crosses one of the two; steeper, it ends in the cone or comes out of it.
+  const B is_flat = a < 0.0f;
+  const F enter = select(is_flat, first, select(along < 0.0f, F(-1e30f), second));
+  const F leave = select(is_flat, second, select(along < 0.0f, first, F(1e30f)));
+  const B misses = both(is_flat, either(discriminant < 0.0f, fma(0.5f * (first + second), along, height) < 0.0f));
+  const F begin = max(whole.begin, enter), end = min(whole.begin + whole.length, leave);
+  const B is_narrow = cosine > 0.0f;
+  return {select(is_narrow, begin, whole.begin), select(is_narrow, select(misses, F(0.0f), end - begin), whole.length)};
+}
+
 struct Place {
   F t, density;
 };
@@ -77,6 +98,8 @@ void place(const ScatterJob& job, const PathColumns& paths, const TrackColumns& 
     const vec3 begin = origin + t_begin * direction;
     const F whole_length = select(exists, load_lanes(stretches.length + i), F(1.0f));
     F light[3] = {0.0f, 0.0f, 0.0f}, value[3] = {0.0f, 0.0f, 0.0f};
+    vec3 axis(0.0f, 0.0f, 1.0f);
+    F cone_end = -3.0f, cone_start = -2.0f;
     for (int k = 0; k < job.light_count; ++k) {
       const DeltaLight& l = job.lights[k];
       const B chosen = both(pick >= l.pick[0], pick < l.pick[1]);
@@ -84,13 +107,17 @@ void place(const ScatterJob& job, const PathColumns& paths, const TrackColumns& 
         light[c] = select(chosen, F(l.place[c]), light[c]);
         value[c] = select(chosen, F(l.value[c] / (l.pick[1] - l.pick[0])), value[c]);
       }
+      axis = select3(chosen, lanes_of(l.cone.axis), axis);
+      cone_end = select(chosen, F(l.cone.end), cone_end);
+      cone_start = select(chosen, F(l.cone.start), cone_start);
     }
     const vec3 to_light = vec3(light[0], light[1], light[2]) - begin;
     const F nearest = dot(to_light, direction);
     const vec3 apart = to_light - nearest * direction;
     // Not exactly ahead, where all places but one would have no density.
     const F distance = max(sqrt(dot(apart, apart)), fma(F(1e-6f), abs(nearest), F(1e-10f)));
-    const NearStretch near = near_stretch(whole_length, job.near_squared, nearest, distance);
+    const NearStretch near = lit_stretch(near_stretch(whole_length, job.near_squared, nearest, distance), -to_light,
+                                         direction, axis, cone_end);
     const B is_near = both(exists, near.length > 0.0f);
     if (!any(is_near)) continue;
     const F length = select(is_near, near.length, F(1.0f));
@@ -120,7 +147,8 @@ void place(const ScatterJob& job, const PathColumns& paths, const TrackColumns& 
     const F squared = max(dot(from_place, from_place), F(1e-20f)), r = sqrt(squared);
     const vec3 shadow_direction = from_place * (F(1.0f) / r);
     const F mu = min(max(dot(shadow_direction, direction), F(-1.0f)), F(1.0f));
-    const F weight = Phase::eval(mu, phase) / (squared * p.density * mean_rescale);
+    const F falloff = cone_falloff(-dot(shadow_direction, axis), cone_end, cone_start);
+    const F weight = falloff * Phase::eval(mu, phase) / (squared * p.density * mean_rescale);
     F carried[3];
     F largest = 0.0f;
     for (int c = 0; c < 3; ++c) {

@@ -1,6 +1,6 @@
 // Light from point lights, gathered at places of their own along flights: not where paths happen to collide, but where
 // the light is strong. Through homogeneous media all of it is, in grids that of lights nearer than a free path; the
-// rest is gathered at collisions.
+// rest is gathered at collisions. Where a light shines in a cone, only what lies in it counts.
 //
 // A place is drawn from a mixture of the equiangular density, in proportion to 1 / r^2, and the density of free flight,
 // so that neither a near light nor a thick medium makes outliers. A grid's density is looked up there.

@@ -31,6 +31,7 @@ LightTable make_light_table(const CompiledScene& scene, const std::function<bool
         {is_point,
          {static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.z)},
          {light.value[0], light.value[1], light.value[2]},
+         light.cone,
          {begin, table.cdf.back()}});
   }
   return table;

@@ -13,6 +13,7 @@ struct DeltaLight {
   bool is_point;   // else distant
   float place[3];  // the point, or the direction towards the light
   float value[3];  // intensity, or irradiance of a facing surface
+  LightCone cone;  // of a point
   float pick[2];   // chosen for numbers in [pick[0], pick[1])
 };
 

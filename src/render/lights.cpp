@@ -23,7 +23,9 @@ LightSample sample_point(const CompiledLight& light, vec3 p) {
   const vec3 to_light = to_float(light.position) - p;
   // A point at the light itself would see infinity.
   const float squared = std::max(dot(to_light, to_light), 1e-20f), distance = std::sqrt(squared);
-  return {{p, (1 / distance) * to_light, distance}, (1 / squared) * light.value, 0};
+  const vec3 direction = (1 / distance) * to_light;
+  const float falloff = kernel::cone_falloff(-dot(direction, light.cone.axis), light.cone.end, light.cone.start);
+  return {{p, direction, distance}, (falloff / squared) * light.value, 0};
 }
 
 LightSample sample_constant(const CompiledLight& light, vec3 p, const vec3* normal, RandomStream& random) {

@@ -155,8 +155,9 @@ std::uint32_t scatter(const ScatterJob& job, const PathColumns& paths, std::uint
         const F squared = max(dot(to_light, to_light), F(1e-20f));
         distance = sqrt(squared);
         to_light = to_light * (F(1.0f) / distance);
-        irradiance = irradiance / squared;
-        gathered_here = both(chosen, squared >= job.near_squared);
+        const F falloff = cone_falloff(-dot(to_light, lanes_of(light.cone.axis)), light.cone.end, light.cone.start);
+        irradiance = falloff * irradiance / squared;
+        gathered_here = both(both(chosen, squared >= job.near_squared), falloff > 0.0f);
       }
       const F mu = min(max(dot(to_light, direction), F(-1.0f)), F(1.0f));
       const F value = Phase::eval(mu, phase);

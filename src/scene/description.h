@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/colour_space.h"
 #include "base/diagnostics.h"
 #include "base/geometry.h"
 #include "base/pixel_box.h"
@@ -28,6 +30,11 @@ struct FilmDescription {
   int width = 1280, height = 720;
   std::array<double, 4> crop_window{0, 1, 0, 1};  // x0 x1 y0 y1, as fractions: the part that is rendered
   bool save_fp16 = true;
+  // What becomes of radiance: it is multiplied by the time that the camera's shutter is open times iso / 100, and the
+  // light of white_balance kelvin becomes white; 0: the light of the colour space's white.
+  ColourSpace colour_space = ColourSpace::srgb;  // of the picture
+  double iso = 100, white_balance = 0;
+  double max_component = std::numeric_limits<double>::infinity();  // samples above it are scaled down to it
 };
 
 // The pixels of the crop window. As pbrt has it, a pixel belongs to the window that its upper left corner lies in: from
@@ -52,7 +59,8 @@ struct CameraDescription {
   Transform world_from_camera;            // camera space: +x right, +y up, +z forward
   double fov = 90;                        // degrees across the shorter image side
   std::array<double, 4> screen_window{};  // x0 x1 y0 y1; all 0: from the aspect of the film
-  std::string medium;                     // what the Camera directive records: the outside medium then current, or ""
+  double shutter_open = 0, shutter_close = 1;
+  std::string medium;  // what the Camera directive records: the outside medium then current, or ""
   Location location;
 };
 
@@ -174,6 +182,13 @@ struct PointLight {
   Vector3 from;        // world
   Spectrum intensity;  // times scale
 };
+// A point that shines in a cone: with all its intensity within cone_angle - cone_delta of the axis, and from there on
+// less and less up to cone_angle.
+struct SpotLight {
+  Vector3 from, to{0, 0, 1};  // world; the axis goes from the one to the other
+  Spectrum intensity;         // on the axis, times scale
+  double cone_angle = 30, cone_delta = 5;
+};
 struct DistantLight {
   Vector3 direction_to_light;  // world, unit
   Spectrum radiance;           // irradiance on a surface that faces it
@@ -186,7 +201,7 @@ struct InfiniteLight {
   double illuminance = 0;  // above 0: an image is scaled to this illuminance of a surface that faces the light's +z
 };
 struct LightDescription {
-  std::variant<PointLight, DistantLight, InfiniteLight> kind;
+  std::variant<PointLight, SpotLight, DistantLight, InfiniteLight> kind;
   Location location;
 };
 

@@ -40,6 +40,29 @@ Vector3 unit(Vector3 v) {
   return std::abs(square - 1) <= 4 * std::numeric_limits<double>::epsilon() ? v : normalize(v);
 }
 
+// The place of a light, as floats hold it.
+Vector3 read_place(ParameterList& p, std::string_view name, Vector3 fallback, const Transform& ctm) {
+  const Vector3 place = ctm.point(p.triple(ParameterType::point3, name, fallback));
+  if (!(length(place) <= max_float)) p.error(p.place(), fmt::format("the place of {} is out of range", p.owner()));
+  return place;
+}
+
+// The intensity's share of the solid angle, of which the smooth step fills half of the ring: pbrt's power.
+SpotLight read_spot(ParameterList& p, const Transform& ctm) {
+  SpotLight light;
+  light.cone_angle = p.number("coneangle", light.cone_angle, {0, 180, true, false});
+  light.cone_delta =
+      p.number("conedeltaangle", std::min(light.cone_delta, light.cone_angle), Range::from_to(0, light.cone_angle));
+  const auto cosine = [](double degrees) { return std::cos(degrees * std::numbers::pi / 180); };
+  const double start = cosine(light.cone_angle - light.cone_delta), end = cosine(light.cone_angle);
+  light.intensity = read_colour(p, "I", "power", 2 * std::numbers::pi * (1 - start + (start - end) / 2));
+  light.from = read_place(p, "from", {0, 0, 0}, ctm);
+  light.to = read_place(p, "to", {0, 0, 1}, ctm);
+  if (!(length(light.to - light.from) > 0))
+    p.error(p.place(), "LightSource \"spot\" shines nowhere: from and to are the same");
+  return light;
+}
+
 DistantLight read_distant(ParameterList& p, const Transform& ctm) {
   DistantLight light;
   light.radiance = read_colour(p, "L", "illuminance", 1);
@@ -83,9 +106,9 @@ InfiniteLight Reader::infinite_light(ParameterList& p, const Transform& ctm) {
 
 void Reader::light_source() {
   const std::string type = string_argument("a type");
-  const std::vector<std::string_view> types = {"point", "distant", "infinite"};
+  const std::vector<std::string_view> types = {"point", "spot", "distant", "infinite"};
   if (std::find(types.begin(), types.end(), type) == types.end())
-    unknown_type(argument_, "LightSource", type, types, {"spot", "goniometric", "projection"});
+    unknown_type(argument_, "LightSource", type, types, {"goniometric", "projection"});
   ParameterList p = parameters(fmt::format("LightSource \"{}\"", type), "light");
   const Transform ctm = usable_ctm("the light");
 
@@ -93,9 +116,9 @@ void Reader::light_source() {
   light.location = location(directive_.place);
   if (type == "point") {
     const Spectrum intensity = read_colour(p, "I", "power", 4 * std::numbers::pi);
-    const Vector3 from = ctm.point(p.triple(ParameterType::point3, "from", {0, 0, 0}));
-    if (!(length(from) <= max_float)) p.error(p.place(), "the place of LightSource \"point\" is out of range");
-    light.kind = PointLight{from, intensity};
+    light.kind = PointLight{read_place(p, "from", {0, 0, 0}, ctm), intensity};
+  } else if (type == "spot") {
+    light.kind = read_spot(p, ctm);
   } else if (type == "distant") {
     light.kind = read_distant(p, ctm);
   } else {

@@ -97,7 +97,7 @@ DielectricMaterial read_dielectric(ParameterList& p) {
   }
   const std::string name = spectrum_name(p, "eta");
   if (name.empty()) {
-    m.eta = p.colour("eta", constant_spectrum(m.eta), ColourUse::coefficient)[0];
+    m.eta = p.colour("eta", constant_spectrum(m.eta), ColourUse::coefficient)[1];  // in green
     if (!(m.eta >= static_cast<float>(least_index) && m.eta <= static_cast<float>(greatest_index)))
       p.value_error(*p.find(ParameterType::spectrum, "eta"), 1,
                     fmt::format("must be from {} to {}, found {}", least_index, greatest_index, m.eta));
@@ -134,11 +134,11 @@ BlinnPhongMaterial read_blinn_phong(ParameterList& p) {
 MaterialDescription Reader::read_material(const std::string& given, const Place& type_place, ParameterList& p) {
   std::string type = given;
   if (type.empty() || type == "none") {
-    messages_.warning(directive_.place, fmt::format("the material \"{}\" is now called \"interface\"", type));
+    messages_.old_spelling(directive_.place, fmt::format("the material \"{}\" is now called \"interface\"", type));
     type = "interface";
   }
   if (type == "matte") {
-    messages_.warning(directive_.place, "the material \"matte\" is now called \"diffuse\"");
+    messages_.old_spelling(directive_.place, "the material \"matte\" is now called \"diffuse\"");
     type = "diffuse";
   }
   MaterialDescription material;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "kernel/phase_table.h"
+#include "scene/medium_presets.h"
 #include "scene/reader.h"
 
 namespace brume {
@@ -28,9 +29,28 @@ Spectrum scaled(ParameterList& p, double factor, const Spectrum& colour, std::st
   return product;
 }
 
-void read_coefficients(ParameterList& p, MediumDescription& medium) {
-  p.refuse({"string preset"}, "is not supported yet; give sigma_a and sigma_s");
+// The coefficients of the preset that a homogeneous medium names; false where it names none.
+bool read_preset(ParameterList& p, double scale, MediumDescription& medium) {
+  const std::string name = p.string("preset", "");
+  if (name.empty()) return false;
+  p.refuse({"rgb sigma_a", "rgb sigma_s", "spectrum sigma_a", "spectrum sigma_s"}, "has no place beside its preset");
+  std::vector<std::string_view> names;
+  for (const MediumPreset& preset : medium_presets()) {
+    names.push_back(preset.name);
+    if (preset.name != name) continue;
+    medium.sigma_a = scaled(p, scale, preset.sigma_a, "sigma_a");
+    medium.sigma_s = scaled(p, scale, preset.sigma_s, "sigma_s");
+    return true;
+  }
+  p.value_error(*p.find(ParameterType::string, "preset"), 0,
+                fmt::format("names the unknown medium \"{}\"{}", printable(name),
+                            suggestion(name, names, "docs/scene-language.md lists those that there are")));
+  return true;
+}
+
+void read_coefficients(ParameterList& p, MediumDescription& medium, bool is_homogeneous) {
   const double scale = p.number("scale", 1, Range::at_least(0));
+  if (is_homogeneous && read_preset(p, scale, medium)) return;
   medium.sigma_a = scaled(p, scale, p.colour("sigma_a", constant_spectrum(1), ColourUse::coefficient), "sigma_a");
   medium.sigma_s = scaled(p, scale, p.colour("sigma_s", constant_spectrum(1), ColourUse::coefficient), "sigma_s");
 }
@@ -154,7 +174,7 @@ void Reader::make_named_medium() {
   if (!p.has(ParameterType::string, "type")) throw Abandon{};
   std::string type = p.string("type", "");
   if (type == "heterogeneous") {
-    messages_.warning(directive_.place, "the medium type \"heterogeneous\" is now called \"uniformgrid\"");
+    messages_.old_spelling(directive_.place, "the medium type \"heterogeneous\" is now called \"uniformgrid\"");
     type = "uniformgrid";
   }
   const std::vector<std::string_view> types = {"homogeneous", "uniformgrid", "nanovdb", "vdb", "vol", "procedural"};
@@ -165,7 +185,7 @@ void Reader::make_named_medium() {
   medium.name = name;
   medium.location = location(directive_.place);
   medium.world_from_medium = usable_ctm("the medium");
-  read_coefficients(p, medium);
+  read_coefficients(p, medium, type == "homogeneous");
   read_emission(p, medium);
   read_phase(p, medium);
   if (type != "homogeneous") read_grid_settings(p, medium);

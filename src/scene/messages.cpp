@@ -128,6 +128,13 @@ void Messages::warning(const Place& place, const std::string& message) {
   warnings_.push_back(std::move(entry));
 }
 
+void Messages::old_spelling(const Place& place, const std::string& message) {
+  if (!strict_)
+    warning(place, message);
+  else if (warned_.insert(message).second)
+    error(place, message);
+}
+
 std::vector<Diagnostic> Messages::sorted(std::vector<Entry>& entries) {
   const auto key = [](const Entry& e) {
     return std::tuple(e.place.source ? e.place.source->order : 0, e.place.line, e.place.column);

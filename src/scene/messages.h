@@ -46,11 +46,17 @@ class Messages {
  public:
   static constexpr std::size_t max_errors = 20, max_warnings = 100;
 
+  // Strict: old spellings are errors.
+  explicit Messages(bool strict = false) : strict_(strict) {}
+
   // Throws TooManyErrors with the last one that is kept.
   void error(const Place& place, const std::string& message);
   [[noreturn]] void fail(const Place& place, const std::string& message);
   // A message that was already given is not repeated.
   void warning(const Place& place, const std::string& message);
+  // About what old scenes write otherwise than the language now has it: a warning, or an error where messages are
+  // strict; not repeated.
+  void old_spelling(const Place& place, const std::string& message);
   bool any_error() const { return !errors_.empty(); }
 
   // Appends the warnings to `warnings`, then throws InputError with the errors, where there are any, in the order of
@@ -64,6 +70,7 @@ class Messages {
   };
   static std::vector<Diagnostic> sorted(std::vector<Entry>& entries);
 
+  bool strict_;
   std::vector<Entry> errors_, warnings_;
   std::set<std::string> warned_;
 };

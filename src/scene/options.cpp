@@ -1,4 +1,4 @@
-// The directives before WorldBegin that say how to make the picture: camera, film, sampler, filter, integrator.
+// The directives before WorldBegin that say how to make the picture: camera, sampler, filter, integrator; Option.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,12 +11,10 @@ namespace brume {
 
 namespace {
 
-constexpr std::int64_t max_edge = 65536, max_pixels = std::int64_t{1} << 28;
 constexpr std::int64_t max_samples = std::int64_t{1} << 24;
 constexpr std::int64_t max_depth = 1000000;
 constexpr std::int64_t max_seed = 0xffffffff;
 constexpr double max_filter_radius = 32;  // pixels
-const std::string no_effect = "has no effect";
 
 std::string lower_case(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -48,6 +46,8 @@ void Reader::camera() {
     p.error(p.place(), fmt::format("the shutter of {} must close after it opens; it opens at {} and closes "
                                    "at {}",
                                    p.owner(), open, close));
+  scene_.camera.shutter_open = open;
+  scene_.camera.shutter_close = close;
   p.finish();
 }
 
@@ -65,63 +65,6 @@ void Reader::screen_window(ParameterList& p) {
     p.value_error(*window, 0, "must be x0 x1 y0 y1 with x0 < x1 and y0 < y1");
   else
     scene_.camera.screen_window = {v[0], v[1], v[2], v[3]};
-}
-
-void Reader::film() {
-  std::string type = string_argument("a type");
-  modernise(type, "image", "rgb");
-  if (type != "rgb") unknown_type(argument_, "Film", type, {"rgb"}, {"gbuffer", "spectral"});
-  ParameterList p = parameters("Film \"rgb\"");
-  scene_.film = {};
-  scene_.film.filename = p.string("filename", scene_.film.filename);
-  scene_.film.width = static_cast<int>(p.integer("xresolution", 1280, 1, max_edge));
-  scene_.film.height = static_cast<int>(p.integer("yresolution", 720, 1, max_edge));
-  if (std::int64_t{scene_.film.width} * scene_.film.height > max_pixels)
-    p.error(p.place(),
-            fmt::format("{} x {} pixels are more than {}", scene_.film.width, scene_.film.height, max_pixels));
-  scene_.film.save_fp16 = p.boolean("savefp16", true);
-  p.ignore({"float diagonal"});
-  crop_window(p);
-  p.warn({"float maxcomponentvalue", "float maxsampleluminance", "float scale"}, no_effect);
-  if (p.number("iso", 100, Range::above(0)) != 100)
-    messages_.warning(p.place_of(ParameterType::float_, "iso"),
-                      "\"float iso\" has no effect: pixels are not scaled by exposure");
-  if (p.number("whitebalance", 0, Range::at_least(0)) != 0)
-    messages_.warning(p.place_of(ParameterType::float_, "whitebalance"), "\"float whitebalance\" has no effect");
-  if (const std::string sensor = p.string("sensor", "cie1931"); sensor != "cie1931")
-    messages_.warning(p.place_of(ParameterType::string, "sensor"),
-                      fmt::format("the sensor \"{}\" has no effect; \"cie1931\" is used", printable(sensor)));
-  p.finish();
-}
-
-// "cropwindow" in fractions of the picture, or "pixelbounds" in pixels, which the former overrides.
-void Reader::crop_window(ParameterList& p) {
-  FilmDescription& film = scene_.film;
-  if (const Parameter* bounds = p.find(ParameterType::integer, "pixelbounds")) {
-    const std::vector<std::int64_t>& v = bounds->integers;
-    if (v.size() != 4)
-      p.value_error(*bounds, 4, fmt::format("takes 4 integers, found {}", v.size()));
-    else if (!(0 <= v[0] && v[0] < v[1] && v[1] <= film.width && 0 <= v[2] && v[2] < v[3] && v[3] <= film.height))
-      p.value_error(*bounds, 0,
-                    fmt::format("must be x0 x1 y0 y1 with 0 <= x0 < x1 <= {} and 0 <= y0 < y1 <= {}, the size of the "
-                                "picture",
-                                film.width, film.height));
-    else
-      for (std::size_t i = 0; i < 4; ++i)
-        film.crop_window[i] = static_cast<double>(v[i]) / (i < 2 ? film.width : film.height);
-  }
-  const Parameter* window = p.find(ParameterType::float_, "cropwindow");
-  if (!window) return;
-  const std::vector<double>& v = window->numbers;
-  if (v.size() != 4) {
-    p.value_error(*window, 4, fmt::format("takes 4 numbers, found {}", v.size()));
-  } else if (!(0 <= v[0] && v[0] < v[1] && v[1] <= 1 && 0 <= v[2] && v[2] < v[3] && v[3] <= 1)) {
-    p.value_error(*window, 0, "must be x0 x1 y0 y1 with 0 <= x0 < x1 <= 1 and 0 <= y0 < y1 <= 1");
-  } else {
-    film.crop_window = {v[0], v[1], v[2], v[3]};
-    if (const PixelBox crop = cropped_pixels(film); crop.width() < 1 || crop.height() < 1)
-      p.value_error(*window, 0, fmt::format("holds no pixel of the {} x {} pixels", film.width, film.height));
-  }
 }
 
 void Reader::sampler() {
@@ -183,8 +126,8 @@ void Reader::pixel_filter() {
 void Reader::gaussian_sigma(ParameterList& p) {
   float& sigma = scene_.filter.sigma;
   if (const double alpha = p.number("alpha", 0, Range::at_least(0)); alpha > 0) {
-    messages_.warning(p.place_of(ParameterType::float_, "alpha"),
-                      "\"float alpha\" is now \"float sigma\", which is 1 / sqrt(2 alpha)");
+    messages_.old_spelling(p.place_of(ParameterType::float_, "alpha"),
+                           "\"float alpha\" is now \"float sigma\", which is 1 / sqrt(2 alpha)");
     sigma = static_cast<float>(1 / std::sqrt(2 * alpha));
   }
   sigma = static_cast<float>(p.number("sigma", static_cast<double>(sigma), {0, max_filter_radius, true, false}));
@@ -223,36 +166,64 @@ void Reader::accelerator() {
 void Reader::color_space() {
   const Place place = tokens_.peek().place;
   const std::string name = string_argument("a name");
-  const std::string lower = lower_case(name);
-  if (lower == "srgb") return;
-  if (contains({"rec2020", "dci-p3", "aces2065-1"}, lower))
-    messages_.fail(place,
-                   fmt::format("ColorSpace \"{}\" is not supported yet; colours are in \"srgb\"", printable(name)));
-  messages_.fail(place, fmt::format("unknown ColorSpace \"{}\"; colours are in \"srgb\"", printable(name)));
+  const std::vector<std::string_view> names(colour_space_names.begin(), colour_space_names.end());
+  const auto found = std::find(names.begin(), names.end(), lower_case(name));
+  if (found == names.end())
+    messages_.fail(place, fmt::format("unknown ColorSpace \"{}\"{}", printable(name),
+                                      suggestion(name, names,
+                                                 "it can be \"srgb\", \"rec2020\", \"dci-p3\" or "
+                                                 "\"aces2065-1\"")));
+  state_.colour_space = static_cast<ColourSpace>(found - names.begin());
 }
 
 void Reader::option() {
+  enum class Kind { flag, number, seed, text };
+  struct Known {
+    std::string_view name;
+    Kind kind;
+    std::string_view expected;
+  };
+  static constexpr std::string_view a_flag = "true or false", a_text = "a quoted string";
+  static constexpr Known known[] = {{"seed", Kind::seed, "an integer from 0 to 4294967295"},
+                                    {"disablepixeljitter", Kind::flag, a_flag},
+                                    {"disabletexturefiltering", Kind::flag, a_flag},
+                                    {"disablewavelengthjitter", Kind::flag, a_flag},
+                                    {"forcediffuse", Kind::flag, a_flag},
+                                    {"pixelstats", Kind::flag, a_flag},
+                                    {"wavefront", Kind::flag, a_flag},
+                                    {"displacementedgescale", Kind::number, "a number"},
+                                    {"msereferenceimage", Kind::text, a_text},
+                                    {"msereferenceout", Kind::text, a_text},
+                                    {"rendercoordsys", Kind::text, a_text}};
   const Place place = tokens_.peek().place;
   std::string name = lower_case(string_argument("a name"));
   std::erase_if(name, [](char c) { return c == '-' || c == '_'; });
-  const std::vector<std::string_view> names = {
-      "seed",          "disablepixeljitter", "disabletexturefiltering", "disablewavelengthjitter", "forcediffuse",
-      "pixelstats",    "wavefront",          "displacementedgescale",   "msereferenceimage",       "msereferenceout",
-      "rendercoordsys"};
-  if (!contains(names, name))
+  const auto found = std::find_if(std::begin(known), std::end(known), [&](const Known& k) { return k.name == name; });
+  if (found == std::end(known)) {
+    std::vector<std::string_view> names;
+    for (const Known& k : known) names.push_back(k.name);
     messages_.fail(place, fmt::format("unknown Option \"{}\"{}", printable(name), suggestion(name, names, {})));
-  if (name != "seed") {
-    messages_.warning(place, fmt::format("Option \"{}\" has no effect", name));
-    tokens_.next();
-    return;
   }
   const Token value = tokens_.peek();
   std::int64_t seed = 0;
-  if (read_integer(value.text, seed) != NumberStatus::ok || value.kind != Token::Kind::number || seed < 0)
+  double number = 0;
+  const bool is_number = value.kind == Token::Kind::number, is_string = value.kind == Token::Kind::string;
+  const bool is_true = value.text == "true", is_flag = !is_number && (is_true || value.text == "false");
+  const bool fits = found->kind == Kind::flag   ? is_flag
+                    : found->kind == Kind::text ? is_string
+                    : found->kind == Kind::seed
+                        ? is_number && read_integer(value.text, seed) == NumberStatus::ok && seed >= 0
+                        : is_number && read_number(value.text, number) == NumberStatus::ok;
+  if (!fits)
     messages_.fail(value.place,
-                   fmt::format("Option \"seed\" must be an integer from 0 to {}, found {}", max_seed, describe(value)));
+                   fmt::format("Option \"{}\" must be {}, found {}", name, found->expected, describe(value)));
   tokens_.next();
-  global_seed_ = static_cast<std::uint32_t>(seed);
+  if (found->kind == Kind::flag && is_string)
+    messages_.old_spelling(value.place, "true and false are now written without quotes");
+  if (found->kind == Kind::seed)
+    global_seed_ = static_cast<std::uint32_t>(seed);
+  else if (found->kind != Kind::flag || is_true)  // what is not asked for is not missed
+    messages_.warning(place, fmt::format("Option \"{}\" has no effect", name));
 }
 
 }  // namespace brume

@@ -54,8 +54,8 @@ std::string Range::text() const {
   return fmt::format("must be {} and {}{}", low, hi_excluded ? "below " : "at most ", hi);
 }
 
-ParameterList::ParameterList(TokenStream& tokens, Messages& messages, std::string owner, Place place)
-    : messages_(messages), owner_(std::move(owner)), place_(place), parameters_(read_parameters(tokens, messages)) {}
+ParameterList::ParameterList(std::vector<Parameter> parameters, Messages& messages, std::string owner, Place place)
+    : messages_(messages), owner_(std::move(owner)), place_(place), parameters_(std::move(parameters)) {}
 
 void ParameterList::add_defaults(const std::vector<Parameter>& defaults) {
   for (const Parameter& d : defaults) {
@@ -71,7 +71,7 @@ void ParameterList::add_defaults(const std::vector<Parameter>& defaults) {
 void ParameterList::rename(std::string_view old_name, std::string_view name) {
   for (Parameter& p : parameters_)
     if (p.name == old_name) {
-      messages_.warning(p.place, fmt::format("the parameter \"{}\" is now called \"{}\"", old_name, name));
+      messages_.old_spelling(p.place, fmt::format("the parameter \"{}\" is now called \"{}\"", old_name, name));
       p.name = name;
     }
 }

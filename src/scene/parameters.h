@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/colour_space.h"
 #include "base/geometry.h"
 #include "base/spectrum.h"
 #include "scene/tokenizer.h"
@@ -40,7 +41,8 @@ struct Parameter {
   bool faulty = false;      // an error was reported for its values
   bool is_default = false;  // from an Attribute directive: may stay unused
   bool used = false;
-  std::vector<double> numbers;  // float, points, vectors, normal, rgb, spectrum pairs, blackbody
+  ColourSpace space = ColourSpace::srgb;  // of an rgb
+  std::vector<double> numbers;            // float, points, vectors, normal, rgb, spectrum pairs, blackbody
   std::vector<std::int64_t> integers;
   std::vector<std::uint8_t> bools;
   std::vector<std::string> strings;  // string, texture, and a spectrum that is named
@@ -68,8 +70,8 @@ enum class ColourUse { albedo, coefficient, light };
 
 class ParameterList {
  public:
-  // Reads the list that follows in `tokens`. `owner` is what messages call the directive: `Camera "perspective"`.
-  ParameterList(TokenStream& tokens, Messages& messages, std::string owner, Place place);
+  // `owner` is what messages call the directive: `Camera "perspective"`.
+  ParameterList(std::vector<Parameter> parameters, Messages& messages, std::string owner, Place place);
 
   const std::string& owner() const { return owner_; }
   const Place& place() const { return place_; }

@@ -84,7 +84,8 @@ class ListReader {
   bool find_type(std::string_view name, const Place& place, ParameterType& type) {
     for (const OldType& old : old_types)
       if (name == old.old_name) {
-        messages_.warning(place, fmt::format("the parameter type \"{}\" is now called \"{}\"", old.old_name, old.name));
+        messages_.old_spelling(place,
+                               fmt::format("the parameter type \"{}\" is now called \"{}\"", old.old_name, old.name));
         name = old.name;
       }
     std::vector<std::string_view> names;
@@ -181,7 +182,7 @@ class ListReader {
       wrong_value(token, parameter);
       return;
     }
-    if (quoted) messages_.warning(token.place, "true and false are now written without quotes");
+    if (quoted) messages_.old_spelling(token.place, "true and false are now written without quotes");
     parameter.bools.push_back(token.text == "true");
   }
 

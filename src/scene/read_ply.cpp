@@ -286,11 +286,13 @@ PlyMesh decode_ply(std::string_view bytes) {
 
 }  // namespace
 
-PlyMesh read_ply(const std::string& path) {
+PlyMesh read_ply(const std::string& path) { return read_ply_bytes(path, read_file_unpacked(path)); }
+
+PlyMesh read_ply_bytes(const std::string& name, std::string_view bytes) {
   try {
-    return decode_ply(read_file_unpacked(path));
+    return decode_ply(bytes);
   } catch (const Fault& fault) {
-    throw InputError(path, fault.message);
+    throw InputError(name, fault.message);
   }
 }
 

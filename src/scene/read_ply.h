@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "scene/description.h"
 
@@ -16,5 +17,7 @@ struct PlyMesh {
 // vertex_index) of a file in text or in binary of either byte order; whatever else it holds is passed over. Faces of
 // four corners become two triangles. Throws InputError.
 PlyMesh read_ply(const std::string& path);
+// The same for bytes at hand; `name` is for messages.
+PlyMesh read_ply_bytes(const std::string& name, std::string_view bytes);
 
 }  // namespace brume

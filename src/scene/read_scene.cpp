@@ -12,6 +12,14 @@ namespace {
 
 const std::string standard_input = "standard input";
 
+SceneDescription read_files(const std::vector<Reader::File>& files, std::vector<Diagnostic>& warnings, bool strict) {
+  Messages messages(strict);
+  Reader reader(messages);  // the messages point into its sources
+  SceneDescription scene = reader.read(files);
+  messages.finish(warnings);
+  return scene;
+}
+
 }  // namespace
 
 bool is_scene_file(const std::string& path) {
@@ -20,19 +28,24 @@ bool is_scene_file(const std::string& path) {
 }
 
 SceneDescription read_scene_text(std::string_view text, const std::string& name, const std::string& folder,
-                                 std::vector<Diagnostic>& warnings) {
-  Messages messages;
-  Reader reader(folder, messages);
-  SceneDescription scene = reader.read(name, text);
-  messages.finish(warnings);
-  return scene;
+                                 std::vector<Diagnostic>& warnings, bool strict) {
+  return read_files({{name, text, folder}}, warnings, strict);
 }
 
 SceneDescription read_scene(const std::string& path, std::vector<Diagnostic>& warnings) {
-  if (path == "-")
-    return read_scene_text(unpacked(standard_input, read_standard_input()), standard_input, "", warnings);
-  const std::string text = read_file_unpacked(path);
-  return read_scene_text(text, path, std::filesystem::path(path).parent_path().string(), warnings);
+  return read_scene_files({path}, warnings);
+}
+
+SceneDescription read_scene_files(const std::vector<std::string>& paths, std::vector<Diagnostic>& warnings,
+                                  bool strict) {
+  std::vector<std::string> texts;
+  for (const std::string& path : paths)
+    texts.push_back(path == "-" ? unpacked(standard_input, read_standard_input()) : read_file_unpacked(path));
+  std::vector<Reader::File> files;
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    files.push_back({paths[i] == "-" ? standard_input : paths[i], texts[i],
+                     std::filesystem::path(paths[i]).parent_path().string()});
+  return read_files(files, warnings, strict);
 }
 
 }  // namespace brume

@@ -16,9 +16,14 @@ bool is_scene_file(const std::string& path);
 // to `warnings`.
 SceneDescription read_scene(const std::string& path, std::vector<Diagnostic>& warnings);
 
-// The same from text; `name` stands for the file in messages, and relative names resolve against `folder`.
+// Several files, one after another, as one scene; each one's relative names resolve against its own folder. Where
+// `strict`, old spellings are errors.
+SceneDescription read_scene_files(const std::vector<std::string>& paths, std::vector<Diagnostic>& warnings,
+                                  bool strict = false);
+
+// From text; `name` stands for the file in messages, and relative names resolve against `folder`.
 SceneDescription read_scene_text(std::string_view text, const std::string& name, const std::string& folder,
-                                 std::vector<Diagnostic>& warnings);
+                                 std::vector<Diagnostic>& warnings, bool strict = false);
 
 // The scene as text that read_scene takes. Reading it gives an equal scene, but for the camera's matrix: the language
 // gives its inverse, so that it comes back within rounding. Relative names in it are written as they are.

@@ -5,36 +5,39 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "base/gzip.h"
-
 namespace brume {
 
 namespace {
 
 constexpr std::size_t max_nesting = 10000;  // of attribute blocks
-constexpr std::size_t max_include_depth = 64;
-constexpr int max_inclusions = 10000;  // in all: files that include each other twice would never end
 
 }  // namespace
 
-Reader::Reader(std::string folder, Messages& messages)
-    : folder_(std::move(folder)), messages_(messages), tokens_(messages) {}
+Reader::Reader(Messages& messages) : messages_(messages), tokens_(messages) {}
 
-SceneDescription Reader::read(const std::string& name, std::string_view text) {
-  sources_.push_back(std::make_unique<Source>(Source{name, text, 0}));
+SceneDescription Reader::read(const std::vector<File>& files) {
   try {
-    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
-      messages_.fail({sources_[0].get(), 0, 0, 0}, "is UTF-16 text: save it as UTF-8");
-    if (text.starts_with("\xef\xbb\xbf")) sources_[0]->text.remove_prefix(3);
-    std::error_code ignored;
-    sources_by_name_[std::filesystem::weakly_canonical(name, ignored).string()] = sources_[0].get();
-    tokens_.push(*sources_[0]);
-    read_directives();
+    for (const File& file : files) {
+      open(file);
+      read_directives();
+    }
     check_whole();
   } catch (const Abandon&) {
   } catch (const TooManyErrors&) {
   }
   return std::move(scene_);
+}
+
+void Reader::open(const File& file) {
+  sources_.push_back(std::make_unique<Source>(Source{file.name, file.text, static_cast<int>(sources_.size())}));
+  Source& source = *sources_.back();
+  if (file.text.starts_with("\xff\xfe") || file.text.starts_with("\xfe\xff"))
+    messages_.fail({&source, 0, 0, 0}, "is UTF-16 text: save it as UTF-8");
+  if (file.text.starts_with("\xef\xbb\xbf")) source.text.remove_prefix(3);
+  std::error_code ignored;
+  sources_by_name_[std::filesystem::weakly_canonical(file.name, ignored).string()] = &source;
+  folder_ = file.folder;
+  tokens_.push(source);
 }
 
 const std::vector<Reader::Directive>& Reader::directives() {
@@ -79,7 +82,7 @@ const std::vector<Reader::Directive>& Reader::directives() {
       {"ObjectBegin", Block::world, &Reader::refused},
       {"ObjectEnd", Block::world, &Reader::refused},
       {"ObjectInstance", Block::world, &Reader::refused},
-      {"Import", Block::world, &Reader::refused},
+      {"Import", Block::world, &Reader::import},
   };
   return all;
 }
@@ -87,6 +90,7 @@ const std::vector<Reader::Directive>& Reader::directives() {
 void Reader::read_directives() {
   for (;;) try {
       const Token token = tokens_.next();
+      while (!imports_.empty() && !tokens_.is_open(imports_.back().depth)) end_import();
       if (token.kind == Token::Kind::end) return;
       if (token.kind != Token::Kind::word)
         messages_.fail(token.place, fmt::format("expected a directive, found {}", describe(token)));
@@ -125,10 +129,11 @@ void Reader::check_block(const Directive& directive) {
 void Reader::world_begin() {
   in_world_ = true;
   state_.ctm = Transform();
+  state_.only_end_is_active = false;
   coordinate_systems_["world"] = Transform();
 }
 
-void Reader::world_end() { messages_.warning(directive_.place, "WorldEnd is no longer needed"); }
+void Reader::world_end() { messages_.old_spelling(directive_.place, "WorldEnd is no longer needed"); }
 
 void Reader::push_state(std::string_view begin) {
   if (stack_.size() >= max_nesting)
@@ -137,7 +142,8 @@ void Reader::push_state(std::string_view begin) {
 }
 
 void Reader::pop_state(std::string_view begin, std::string_view end) {
-  if (stack_.empty()) messages_.fail(directive_.place, fmt::format("{} without {}", end, begin));
+  if (stack_.size() <= (imports_.empty() ? 0 : imports_.back().stack_size))
+    messages_.fail(directive_.place, fmt::format("{} without {}", end, begin));
   const Saved& saved = stack_.back();
   if (saved.begin != begin)
     messages_.error(directive_.place, fmt::format("{} closes the {} of line {}", end, saved.begin, saved.place.line));
@@ -148,7 +154,7 @@ void Reader::pop_state(std::string_view begin, std::string_view end) {
 void Reader::attribute_begin() { push_state("AttributeBegin"); }
 void Reader::attribute_end() { pop_state("AttributeBegin", "AttributeEnd"); }
 void Reader::transform_begin() {
-  messages_.warning(directive_.place, "TransformBegin is now called AttributeBegin, and saves all attributes");
+  messages_.old_spelling(directive_.place, "TransformBegin is now called AttributeBegin, and saves all attributes");
   push_state("TransformBegin");
 }
 void Reader::transform_end() { pop_state("TransformBegin", "TransformEnd"); }
@@ -162,7 +168,7 @@ void Reader::attribute() {
                    fmt::format("unknown Attribute \"{}\"; it is \"shape\", \"light\", \"material\", \"medium\" or "
                                "\"texture\"",
                                printable(target)));
-  std::vector<Parameter> added = read_parameters(tokens_, messages_);
+  std::vector<Parameter> added = read_list();
   auto& defaults = state_.defaults[target];
   std::vector<Parameter> all = defaults ? *defaults : std::vector<Parameter>();
   for (Parameter& p : added) {
@@ -172,49 +178,7 @@ void Reader::attribute() {
   defaults = std::make_shared<const std::vector<Parameter>>(std::move(all));
 }
 
-void Reader::include() {
-  const Place place = tokens_.peek().place;
-  const std::string name = string_argument("a file name");
-  const Source& source = open_source(resolve(name), place);
-  const auto open = tokens_.open_sources();
-  if (std::find(open.begin(), open.end(), &source) != open.end())
-    messages_.fail(place, fmt::format("\"{}\" includes itself", printable(name)));
-  if (open.size() >= max_include_depth)
-    messages_.fail(place, fmt::format("files are included more than {} deep", max_include_depth));
-  if (++inclusions_ > max_inclusions)
-    messages_.fail(place, fmt::format("more than {} files are included", max_inclusions));
-  tokens_.push(source);
-}
-
 void Reader::refused() { messages_.fail(directive_.place, fmt::format("{} is not supported yet", directive_.text)); }
-
-std::string Reader::resolve(const std::string& filename) const {
-  namespace fs = std::filesystem;
-  std::error_code ignored;
-  if (folder_.empty() || fs::path(filename).is_absolute()) return filename;
-  const std::string in_folder = (fs::path(folder_) / filename).string();
-  return fs::exists(in_folder, ignored) ? in_folder : filename;
-}
-
-const Source& Reader::open_source(const std::string& filename, const Place& place) {
-  namespace fs = std::filesystem;
-  std::error_code ignored;
-  const fs::path canonical = fs::weakly_canonical(filename, ignored);
-  const std::string key = canonical.empty() ? filename : canonical.string();
-  if (const auto known = sources_by_name_.find(key); known != sources_by_name_.end()) return *known->second;
-  if (!fs::exists(filename, ignored))
-    messages_.fail(place, fmt::format("there is no file \"{}\"", printable(filename)));
-  if (!fs::is_regular_file(filename, ignored))
-    messages_.fail(place, fmt::format("\"{}\" is not a file", printable(filename)));
-  std::string& text = texts_[key];
-  try {
-    text = read_file_unpacked(filename);
-  } catch (const InputError& e) {
-    messages_.fail(place, fmt::format("\"{}\" {}", printable(filename), e.diagnostics().front().message));
-  }
-  sources_.push_back(std::make_unique<Source>(Source{filename, text, static_cast<int>(sources_.size())}));
-  return *(sources_by_name_[key] = sources_.back().get());
-}
 
 std::string Reader::string_argument(std::string_view what) {
   const Token& token = tokens_.peek();
@@ -244,8 +208,17 @@ Vector3 Reader::vector_argument() {
   return v;
 }
 
+std::vector<Parameter> Reader::read_list() {
+  std::vector<Parameter> list = read_parameters(tokens_, messages_);
+  for (Parameter& p : list) {
+    p.space = state_.colour_space;
+    if (p.type == ParameterType::spectrum && p.strings.size() == 1) read_spectrum_file(p);
+  }
+  return list;
+}
+
 ParameterList Reader::parameters(const std::string& owner, const std::string& target) {
-  ParameterList list(tokens_, messages_, owner, directive_.place);
+  ParameterList list(read_list(), messages_, owner, directive_.place);
   if (const auto defaults = state_.defaults.find(target); defaults != state_.defaults.end())
     list.add_defaults(*defaults->second);
   return list;
@@ -253,7 +226,8 @@ ParameterList Reader::parameters(const std::string& owner, const std::string& ta
 
 void Reader::modernise(std::string& given, std::string_view old_name, std::string_view name) {
   if (given != old_name) return;
-  messages_.warning(directive_.place, fmt::format("{} \"{}\" is now called \"{}\"", directive_.text, old_name, name));
+  messages_.old_spelling(directive_.place,
+                         fmt::format("{} \"{}\" is now called \"{}\"", directive_.text, old_name, name));
   given = name;
 }
 

@@ -1,5 +1,5 @@
 // The reader of scene files: one member function per directive, in reader.cpp (blocks, includes, names),
-// transforms.cpp, options.cpp, media.cpp, shapes.cpp, materials.cpp and lights.cpp.
+// transforms.cpp, files.cpp, film.cpp, options.cpp, media.cpp, shapes.cpp, materials.cpp and lights.cpp.
 #pragma once
 
 #include <map>
@@ -16,7 +16,9 @@ namespace brume {
 // What AttributeBegin saves and AttributeEnd brings back.
 struct GraphicsState {
   Transform ctm;  // the current transformation matrix: world from object, before WorldBegin camera from world
+  bool only_end_is_active = false;  // transforms change where things move to, which nothing does
   bool reverse_orientation = false;
+  ColourSpace colour_space = ColourSpace::srgb;  // of rgb values
   std::string inside, outside;
   MaterialDescription material;
   std::optional<AreaLight> area_light;
@@ -26,11 +28,17 @@ struct GraphicsState {
 
 class Reader {
  public:
-  // Relative file names resolve against `folder`.
-  Reader(std::string folder, Messages& messages);
+  explicit Reader(Messages& messages);
 
-  // Reads a scene; errors are noted in the messages, and the scene is then of no use. `text` must outlive the reader.
-  SceneDescription read(const std::string& name, std::string_view text);
+  // A file of a scene; relative file names in it resolve against `folder`.
+  struct File {
+    std::string name;
+    std::string_view text;
+    std::string folder;
+  };
+  // Reads a scene, file by file; errors are noted in the messages, and the scene is then of no use. The texts must
+  // outlive the reader, and the reader the messages that it noted.
+  SceneDescription read(const std::vector<File>& files);
 
  private:
   enum class Block { options, world, both };
@@ -41,6 +49,7 @@ class Reader {
   };
   static const std::vector<Directive>& directives();
 
+  void open(const File& file);
   void read_directives();
   void read_directive(const Token& word);
   void check_block(const Directive& directive);
@@ -56,6 +65,9 @@ class Reader {
   void pop_state(std::string_view begin, std::string_view end);
   void attribute();
   void include();
+  void import();
+  void end_import();
+  void push_file();
   void refused();
 
   // Transforms.
@@ -73,6 +85,7 @@ class Reader {
   void reverse_orientation();
   Transform matrix_argument();
   void multiply(const Transform& t);
+  void set_ctm(const Transform& t);
 
   // Options.
   void camera();
@@ -86,6 +99,7 @@ class Reader {
   void option();
   void screen_window(ParameterList& parameters);
   void crop_window(ParameterList& parameters);
+  void sensor(ParameterList& parameters);
 
   // The world.
   void make_named_medium();
@@ -104,6 +118,9 @@ class Reader {
   std::string string_argument(std::string_view what);
   double number_argument();
   Vector3 vector_argument();
+  // The parameters that follow, colours in the current colour space and spectra read from their files.
+  std::vector<Parameter> read_list();
+  void read_spectrum_file(Parameter& parameter);
   // The parameter list of the directive being read, with the defaults of `target` where that is not empty.
   ParameterList parameters(const std::string& owner, const std::string& target = {});
   // The current transformation matrix, which must not be singular, for `what`.
@@ -123,7 +140,7 @@ class Reader {
   void check_media_names();
   void check_volumes();
 
-  std::string folder_;
+  std::string folder_;  // of the file being read
   Messages& messages_;
   TokenStream tokens_;
   std::vector<std::unique_ptr<Source>> sources_;
@@ -140,6 +157,14 @@ class Reader {
   };
   std::vector<Saved> stack_;
   std::map<std::string, Transform> coordinate_systems_;
+  // Files that are being imported, and what there was before.
+  struct Imported {
+    GraphicsState state;
+    std::map<std::string, Transform> coordinate_systems;
+    std::size_t stack_size;
+    std::size_t depth;  // of open files, the imported one included
+  };
+  std::vector<Imported> imports_;
   std::map<std::string, MaterialDescription> named_materials_;
   bool in_world_ = false;
   std::optional<std::uint32_t> sampler_seed_, global_seed_;

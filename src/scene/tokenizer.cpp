@@ -47,6 +47,37 @@ const char* number_begin(std::string_view text, bool point_allowed) {
   return *begin == '+' ? digits : begin;
 }
 
+// The number that begins at `at`, where it is a short one: a sign, and up to 15 digits with a point among them. Such
+// digits and the power of ten below them are doubles, and so their quotient is rounded once, to the nearest: what
+// from_chars finds. Returns where the number ends, or null.
+const char* read_short_number(const char* at, const char* end, double& value) {
+  static constexpr double powers[] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                      1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+  constexpr std::ptrdiff_t most_digits = 15;
+  const bool negative = at != end && *at == '-';
+  if (negative) ++at;
+  std::int64_t digits = 0;
+  const auto read_digits = [&] {
+    const char* const first = at;
+    for (; at != end && *at >= '0' && *at <= '9' && at - first <= most_digits; ++at) digits = 10 * digits + (*at - '0');
+    return at - first;
+  };
+  const std::ptrdiff_t whole = read_digits();
+  std::ptrdiff_t places = 0;
+  if (at != end && *at == '.' && whole <= most_digits) {
+    ++at;
+    const std::int64_t before = digits;
+    digits = 0;
+    places = read_digits();
+    if (whole + places > most_digits) return nullptr;
+    digits += before * static_cast<std::int64_t>(powers[places]);
+  }
+  if (whole + places == 0 || whole + places > most_digits || (at != end && !ends_token(*at))) return nullptr;
+  const double magnitude = static_cast<double>(digits) / powers[places];
+  value = negative ? -magnitude : magnitude;
+  return at;
+}
+
 }  // namespace
 
 std::string describe(const Token& token) {
@@ -212,6 +243,12 @@ std::string_view TokenStream::number_run() {
 }
 
 bool TokenStream::next_number(double& value) {
+  if (peeked_ || !skip_space()) return false;
+  Cursor& c = cursors_.back();
+  if (const char* stop = read_short_number(c.at, c.source->text.data() + c.source->text.size(), value)) {
+    c.at = stop;
+    return true;
+  }
   const std::string_view run = number_run();
   if (run.empty() || read_number(run, value) != NumberStatus::ok) return false;
   cursors_.back().at += run.size();

@@ -49,6 +49,8 @@ class TokenStream {
 
   // Continues with the tokens of `source`, then with what came after. No token may have been peeked at.
   void push(const Source& source);
+  // Whether any token of the sources from the `depth`th open one on is still to be read.
+  bool is_open(std::size_t depth) const { return cursors_.size() >= depth; }
   // Open sources, the outermost first.
   std::vector<const Source*> open_sources() const;
 

@@ -39,10 +39,14 @@ Transform Reader::usable_ctm(std::string_view what) {
 void Reader::multiply(const Transform& t) {
   const Transform product = state_.ctm * t;
   if (!in_range(product)) messages_.fail(directive_.place, "the current transformation goes out of range here");
-  state_.ctm = product;
+  set_ctm(product);
 }
 
-void Reader::identity() { state_.ctm = Transform(); }
+void Reader::set_ctm(const Transform& t) {
+  if (!state_.only_end_is_active) state_.ctm = t;
+}
+
+void Reader::identity() { set_ctm(Transform()); }
 void Reader::translate_by() { multiply(translate(vector_argument())); }
 void Reader::scale_by() { multiply(scale(vector_argument())); }
 
@@ -84,7 +88,7 @@ Transform Reader::matrix_argument() {
   return t;
 }
 
-void Reader::transform() { state_.ctm = matrix_argument(); }
+void Reader::transform() { set_ctm(matrix_argument()); }
 void Reader::concat_transform() { multiply(matrix_argument()); }
 
 void Reader::coordinate_system() { coordinate_systems_[string_argument("a name")] = state_.ctm; }
@@ -105,12 +109,12 @@ void Reader::coord_sys_transform() {
 
 void Reader::active_transform() {
   const Token token = tokens_.next();
-  if (token.text == "All" && token.kind == Token::Kind::word) return;
-  if (token.text == "StartTime" || token.text == "EndTime")
+  if (token.kind != Token::Kind::word || (token.text != "All" && token.text != "StartTime" && token.text != "EndTime"))
     messages_.fail(token.place,
-                   "ActiveTransform is not supported yet but for All: nothing moves while the shutter is open");
-  messages_.fail(token.place,
-                 fmt::format("ActiveTransform takes All, StartTime or EndTime, found {}", describe(token)));
+                   fmt::format("ActiveTransform takes All, StartTime or EndTime, found {}", describe(token)));
+  state_.only_end_is_active = token.text == "EndTime";
+  if (token.text != "All")
+    messages_.warning(token.place, "nothing moves while the shutter is open: things stay where they are when it opens");
 }
 
 void Reader::transform_times() {

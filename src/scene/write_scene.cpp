@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "base/file.h"
@@ -103,10 +104,16 @@ class Writer {
 
   void options(const SceneDescription& scene) {
     const FilmDescription& film = scene.film;
+    const std::string_view space = colour_space_names[static_cast<std::size_t>(film.colour_space)];
+    if (film.colour_space != ColourSpace::srgb) line("ColorSpace \"{}\"", space);
     line("Film \"rgb\" \"integer xresolution\" {} \"integer yresolution\" {}", film.width, film.height);
     line("  \"string filename\" {} \"bool savefp16\" {}", quoted(film.filename), film.save_fp16);
     if (film.crop_window != FilmDescription{}.crop_window)
       line("  \"float cropwindow\" [{}]", fmt::join(film.crop_window, " "));
+    if (film.iso != 100) line("  \"float iso\" {}", film.iso);
+    if (film.white_balance > 0) line("  \"float whitebalance\" {}", film.white_balance);
+    if (std::isfinite(film.max_component)) line("  \"float maxcomponentvalue\" {}", film.max_component);
+    if (film.colour_space != ColourSpace::srgb) line("ColorSpace \"srgb\"");
     line("Sampler \"{}\" \"integer pixelsamples\" {} \"integer seed\" {}",
          scene.sampler.kind == SamplerDescription::Kind::zsobol ? "zsobol" : "independent", scene.sampler.pixel_samples,
          scene.sampler.seed);
@@ -130,6 +137,8 @@ class Writer {
     line("Camera \"perspective\" \"float fov\" {}", camera.fov);
     const std::array<double, 4>& w = camera.screen_window;
     if (w != std::array<double, 4>{}) line("  \"float screenwindow\" [{} {} {} {}]", w[0], w[1], w[2], w[3]);
+    if (camera.shutter_open != 0 || camera.shutter_close != 1)
+      line("  \"float shutteropen\" {} \"float shutterclose\" {}", camera.shutter_open, camera.shutter_close);
     // What the Camera directive records lasts; nothing below is to inherit it.
     if (!camera.medium.empty()) line("MediumInterface \"\"");
   }
@@ -182,6 +191,11 @@ class Writer {
   }
   void light_kind(const PointLight& l) {
     line("LightSource \"point\" \"point3 from\" [{}]", numbers(l.from));
+    colour("I", l.intensity);
+  }
+  void light_kind(const SpotLight& l) {
+    line("LightSource \"spot\" \"point3 from\" [{}] \"point3 to\" [{}]", numbers(l.from), numbers(l.to));
+    line("  \"float coneangle\" {} \"float conedeltaangle\" {}", l.cone_angle, l.cone_delta);
     colour("I", l.intensity);
   }
   void light_kind(const DistantLight& l) {

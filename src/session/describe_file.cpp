@@ -48,6 +48,9 @@ struct DescribeLight {
   std::string operator()(const PointLight& l) const {
     return fmt::format("point at {}, intensity {}", text(l.from), text(l.intensity));
   }
+  std::string operator()(const SpotLight& l) const {
+    return fmt::format("spot at {}, towards {}, intensity {}", text(l.from), text(l.to), text(l.intensity));
+  }
   std::string operator()(const DistantLight& l) const {
     return fmt::format("distant, towards {}, radiance {}", text(l.direction_to_light), text(l.radiance));
   }

@@ -132,6 +132,7 @@ ImageMetadata make_metadata(const CompiledScene& scene, const SceneDescription& 
   metadata.camera_from_world = inverse(scene.camera.world_from_camera);
   metadata.ndc_from_world = ndc_from_world(scene, metadata.camera_from_world);
   metadata.seed = scene.seed;
+  metadata.colour_space = description.film.colour_space;
   if (picture.width != scene.width || picture.height != scene.height) {
     metadata.x = scene.crop.x0;
     metadata.y = scene.crop.y0;
@@ -172,7 +173,7 @@ Picture render_description(const SceneDescription& description, const RenderOpti
   const CompiledScene scene = compile_scene(description, thread_count(options.threads), warnings);
   const std::unique_ptr<Backend> backend = make_cpu_backend();
   backend->prepare(scene);
-  Film film(scene.crop.width(), scene.crop.height());
+  Film film(scene.crop.width(), scene.crop.height(), scene.film_response);
 
   const auto picture_now = [&](bool partial) {
     return make_picture(film, scene, description, options, watch.seconds(), partial);

@@ -44,6 +44,15 @@ void check_integrator(const std::string& name) {
                           fmt::join(integrator_names, ", ")));
 }
 
+void check_is_scene(const std::string& path) {
+  if (is_scene_file(path)) return;
+  if (is_volume_file(path)) throw InputError(path, "a volume is rendered on its own, or named by a scene");
+  const std::string s = suffix(path);
+  throw InputError(path,
+                   fmt::format("{}; scenes are .pbrt or .pbrt.gz files, volumes {}",
+                               s.empty() ? "no suffix" : fmt::format("unknown suffix \"{}\"", s), volume_suffixes));
+}
+
 // A scene as text or in another folder must find its volumes from anywhere.
 SceneDescription with_absolute_names(SceneDescription scene) {
   for (MediumDescription& medium : scene.media)
@@ -52,9 +61,10 @@ SceneDescription with_absolute_names(SceneDescription scene) {
   return scene;
 }
 
-SceneDescription read_description(const std::string& path, std::vector<std::string>& warnings) {
+SceneDescription read_description(const std::vector<std::string>& paths, std::vector<std::string>& warnings,
+                                  bool strict) {
   std::vector<Diagnostic> found;
-  SceneDescription scene = read_scene(path, found);
+  SceneDescription scene = read_scene_files(paths, found, strict);
   for (const Diagnostic& warning : found) warnings.push_back(to_string(warning));
   return scene;
 }
@@ -66,15 +76,13 @@ Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 Scene::~Scene() = default;
 
-Scene Scene::load(const std::string& path, std::vector<std::string>& warnings) {
+Scene Scene::load(const std::string& path, std::vector<std::string>& warnings) { return load_files({path}, warnings); }
+
+Scene Scene::load_files(const std::vector<std::string>& paths, std::vector<std::string>& warnings, bool strict) {
   return with_public_errors([&] {
-    const std::string s = suffix(path);
-    if (is_volume_file(path)) return frame_volume(path);
-    if (!is_scene_file(path))
-      throw InputError(path,
-                       fmt::format("{}; scenes are .pbrt or .pbrt.gz files, volumes {}",
-                                   s.empty() ? "no suffix" : fmt::format("unknown suffix \"{}\"", s), volume_suffixes));
-    return Scene(std::make_unique<Contents>(Contents{read_description(path, warnings), {}, {}}));
+    if (paths.size() == 1 && is_volume_file(paths[0])) return frame_volume(paths[0]);
+    for (const std::string& path : paths) check_is_scene(path);
+    return Scene(std::make_unique<Contents>(Contents{read_description(paths, warnings, strict), {}, {}}));
   });
 }
 

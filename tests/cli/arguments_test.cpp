@@ -55,7 +55,9 @@ TEST(Arguments, MistakesAreNamedAndNothingIsWritten) {
   write_small_scene(folder.file("a.pbrt"));
   const std::vector<BadArguments> cases = {
       {{}, "a scene or a volume to render is missing"},
-      {{"a.pbrt", "b.pbrt"}, "unexpected argument \"b.pbrt\""},
+      {{"a.pbrt", "b.pbrt"}, "b.pbrt: error: cannot be read: No such file"},
+      {{"a.pbrt", "b.vdb"}, "b.vdb: error: a volume is rendered on its own, or named by a scene"},
+      {{"a.pbrt", "a.pbrt"}, "this WorldBegin is the second one"},
       {{"a.pbrt", "--sppp", "3"}, "unknown option --sppp, did you mean --spp?"},
       {{"a.pbrt", "--threads", "3"}, "did you mean --nthreads?"},
       {{"a.pbrt", "--spp"}, "--spp"},
@@ -108,6 +110,19 @@ TEST(Arguments, SceneErrorsHaveTheirPlace) {
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.error, HasSubstr("a.pbrt:2:"));
   EXPECT_THAT(folder.names(), ElementsAre("a.pbrt"));
+}
+
+TEST(Arguments, SeveralFilesAreOneScene) {
+  const TemporaryFolder folder;
+  write_bytes_to(folder.file("film.pbrt"), "Film \"rgb\" \"integer xresolution\" 3 \"integer yresolution\" 2\n");
+  write_bytes_to(folder.file("world.pbrt"), "WorldBegin\nLightSource \"infinite\"\nWorldEnd\n");
+  const Outcome outcome = run(folder.path(), {"film.pbrt", "world.pbrt", "--spp", "1", "-o", "x.pfm"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+  EXPECT_THAT(outcome.error, HasSubstr("world.pbrt:3:1: warning: WorldEnd is no longer needed"));
+  EXPECT_THAT(outcome.error, HasSubstr("3 x 2 pixels"));
+  const Outcome strict = run(folder.path(), {"film.pbrt", "world.pbrt", "--strict", "-o", "y.pfm"});
+  EXPECT_EQ(strict.exit_code, 1);
+  EXPECT_THAT(strict.error, HasSubstr("world.pbrt:3:1: error: WorldEnd is no longer needed"));
 }
 
 TEST(Arguments, InfoDescribesAScene) {

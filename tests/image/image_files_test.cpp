@@ -3,6 +3,7 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfMatrixAttribute.h>
+#include <OpenEXR/ImfStandardAttributes.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <png.h>
@@ -51,6 +52,29 @@ TEST(ImageFiles, FloatsSurviveInExrAndPfm) {
     EXPECT_EQ(back.height, 33);
     EXPECT_EQ(back.pixels, image.pixels) << name;
   }
+}
+
+// An .exr keeps the pixels and says what they are; a .png holds the same light in sRGB. 0.5 grey is 188.
+TEST(ImageFiles, ColourSpacesAreToldOrTurnedIntoSrgb) {
+  const TemporaryFolder folder;
+  ImageMetadata metadata = test_metadata();
+  metadata.colour_space = ColourSpace::aces2065_1;
+  const Vector3 aces = inverse(rec709_from(ColourSpace::aces2065_1, Whites::kept)) * Vector3{0.5, 0.5, 0.5};
+  const Image image{1, 1, {static_cast<float>(aces.x), static_cast<float>(aces.y), static_cast<float>(aces.z)}};
+  write_image(folder.file("a.exr"), image, metadata);
+  EXPECT_EQ(read_image(folder.file("a.exr")).pixels, image.pixels);
+  const Imf::InputFile file(folder.file("a.exr").c_str());
+  ASSERT_TRUE(Imf::hasChromaticities(file.header()));
+  EXPECT_FLOAT_EQ(Imf::chromaticities(file.header()).red.x, 0.7347f);
+  EXPECT_FLOAT_EQ(Imf::chromaticities(file.header()).white.y, 0.33767f);
+  write_image(folder.file("a.png"), image, metadata);
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  ASSERT_TRUE(png_image_begin_read_from_file(&png, folder.file("a.png").c_str()));
+  png.format = PNG_FORMAT_RGB;
+  std::uint8_t values[3] = {};
+  ASSERT_TRUE(png_image_finish_read(&png, nullptr, values, 0, nullptr));
+  for (const std::uint8_t value : values) EXPECT_EQ(value, 188);
 }
 
 TEST(ImageFiles, TheVarianceIsALayerOfFloatsInExr) {

@@ -72,6 +72,7 @@ inline void call_aimed_density(const F* in, F* out, const TestGrid&) {
   out[0] = aimed_density(normalize(call_vec3(in)), normalize(call_vec3(in + 3)));
 }
 inline void call_aimed_strength(const F* in, F* out, const TestGrid&) { out[0] = aimed_strength(in[0], in[1], in[2]); }
+inline void call_cone_falloff(const F* in, F* out, const TestGrid&) { out[0] = cone_falloff(in[0], in[1], in[2]); }
 // Twelve steps: the cells and where each is left.
 inline void call_dda(const F* in, F* out, const TestGrid&) {
   Dda walk = dda_start(call_vec3(in), call_vec3(in + 3));
@@ -144,7 +145,7 @@ constexpr KernelCall kernel_calls[] = {
     CALL(cell_mean_linear, 7, 1), CALL(sobol_pair, 6, 2),
     CALL(atan_turns, 1, 1),       CALL(random_words, 4, 4),
     CALL(majorant_walk, 6, 24),   CALL(grid_stochastic, 5, 1),
-    CALL(ball_span, 6, 5),
+    CALL(ball_span, 6, 5),        CALL(cone_falloff, 3, 1),
 #include "kernel/phase_list.inl"
 };
 #undef PHASE

@@ -108,6 +108,7 @@ std::map<std::string, Agreement, std::less<>> agreements() {
   all["directions"] = {8, 4e-7, [](int n, int a) { return uniform(n, a, a < 3 ? -1 : 0, 1); }};
   all["aimed_density"] = {64, 1e-6, range(-1, 1)};
   all["aimed_strength"] = {2, 0, range(0.1f, 2)};
+  all["cone_falloff"] = {2, 3e-7, [](int n, int a) { return uniform(n, a, a == 2 ? 0.1f : -1, a == 1 ? 0 : 1); }};
   all["dda"] = {0, 0, inside_argument};
   all["majorant_walk"] = {0, 0, inside_argument};
   all["grid_stochastic"] = {2, 0, [](int n, int a) { return a < 3 ? uniform(n, a, -7, 23) : random_word(n, a); }};

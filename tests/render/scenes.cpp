@@ -101,7 +101,7 @@ Film render_film(const SceneDescription& scene, int samples, int threads) {
   const CompiledScene compiled = compile(scene, threads, warnings);
   const auto backend = make_cpu_backend();
   backend->prepare(compiled);
-  Film film(compiled.crop.width(), compiled.crop.height());
+  Film film(compiled.crop.width(), compiled.crop.height(), compiled.film_response);
   backend->render(0, samples, threads, film, [](double) { return true; });
   return film;
 }

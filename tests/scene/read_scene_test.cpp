@@ -1,5 +1,6 @@
 // What the reader makes of scenes that are right.
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -292,6 +293,23 @@ TEST(ReadScene, TheExampleOfTheManualIsAScene) {
   EXPECT_EQ(s.lights.size(), 2u);
   ASSERT_EQ(s.shapes.size(), 1u);
   EXPECT_EQ(s.shapes[0].inside, "cloud");
+}
+
+// Each file's names resolve against its own folder, and what stands in one goes on in the next.
+TEST(ReadScene, SeveralFilesAreOneScene) {
+  namespace fs = std::filesystem;
+  const std::string folder = testing::TempDir() + "/brume_several_files";
+  fs::create_directories(folder + "/a");
+  fs::create_directories(folder + "/b");
+  std::ofstream(folder + "/a/film.pbrt") << "Film \"rgb\" \"integer xresolution\" 7 WorldBegin AttributeBegin";
+  std::ofstream(folder + "/b/world.pbrt") << "Translate 1 2 3 Include \"lamp.inc\" AttributeEnd";
+  std::ofstream(folder + "/b/lamp.inc") << "LightSource \"point\"";
+  std::vector<Diagnostic> warnings;
+  const SceneDescription s = read_scene_files({folder + "/a/film.pbrt", folder + "/b/world.pbrt"}, warnings);
+  EXPECT_EQ(s.film.width, 7);
+  ASSERT_EQ(s.lights.size(), 1u);
+  EXPECT_EQ(kind<PointLight>(s.lights[0]).from, (Vector3{1, 2, 3}));
+  fs::remove_all(folder);
 }
 
 TEST(ReadScene, AMissingFileIsAnInputError) {

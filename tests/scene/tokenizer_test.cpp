@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 
 namespace brume {
 namespace {
@@ -113,6 +114,33 @@ TEST(Tokenizer, FastPathStopsBeforeWhatIsNoNumber) {
   EXPECT_EQ(sum, 6.5);
   EXPECT_EQ(stream.next().text, "4x");
   EXPECT_EQ(stream.next().text, "5");
+}
+
+// Short numbers have a way of their own; to the last bit it is the long one. Digits, points and signs at random, 1 to
+// 20 of them, are numbers or not.
+TEST(Tokenizer, FastPathReadsNumbersAsTheSlowOneDoes) {
+  std::mt19937 random(3);
+  int numbers = 0, others = 0;
+  for (int i = 0; i < 200000; ++i) {
+    std::string text;
+    const std::size_t length = 1 + random() % 20;
+    for (std::size_t k = 0; k < length; ++k) text += "0123456789012345678901234567890123456789.-"[random() % 42];
+    double expected = 0, found = 0;
+    const bool is_number = read_number(text, expected) == NumberStatus::ok;
+    Messages messages;
+    const Source source{"t", text, 0};
+    TokenStream stream(messages);
+    stream.push(source);
+    ASSERT_EQ(stream.next_number(found), is_number) << text;
+    if (is_number) {
+      ASSERT_EQ(found, expected) << text;
+      ASSERT_EQ(std::signbit(found), std::signbit(expected)) << text;
+      EXPECT_EQ(stream.next().kind, Token::Kind::end);
+    }
+    ++(is_number ? numbers : others);
+  }
+  EXPECT_GT(numbers, 10000);
+  EXPECT_GT(others, 10000);
 }
 
 TEST(Tokenizer, ContinuesAfterAnIncludedSource) {

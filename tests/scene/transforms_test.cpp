@@ -68,6 +68,20 @@ TEST(Transforms, WorldBeginStartsFromTheIdentity) {
   EXPECT_EQ(scene.shapes.at(0).world_from_object, Transform());
 }
 
+// What is there when the shutter opens counts: what ends with EndTime moves nothing, and its block brings All back.
+TEST(Transforms, OfTheEndMoveNothing) {
+  std::vector<Diagnostic> warnings;
+  const SceneDescription scene = scene_of(
+      "WorldBegin Translate 1 0 0 AttributeBegin ActiveTransform EndTime Translate 5 0 0 Identity Shape \"sphere\" "
+      "ActiveTransform StartTime Translate 0 2 0 Shape \"sphere\" ActiveTransform EndTime AttributeEnd "
+      "Translate 0 0 3 Shape \"sphere\"",
+      &warnings);
+  EXPECT_EQ(warnings.size(), 1u);
+  expect_near(scene.shapes.at(0).world_from_object.point({0, 0, 0}), {1, 0, 0});
+  expect_near(scene.shapes.at(1).world_from_object.point({0, 0, 0}), {1, 2, 0});
+  expect_near(scene.shapes.at(2).world_from_object.point({0, 0, 0}), {1, 0, 3});
+}
+
 TEST(Transforms, PlaceLights) {
   const SceneDescription scene = world_of(
       "Translate 1 0 0 Rotate 90 0 0 1 LightSource \"point\" \"point3 from\" [1 0 0]\n"

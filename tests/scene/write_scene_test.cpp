@@ -108,6 +108,14 @@ void expect_equal(const LightDescription& a, const LightDescription& b) {
     EXPECT_EQ(point->from, std::get<PointLight>(b.kind).from);
     EXPECT_EQ(point->intensity, std::get<PointLight>(b.kind).intensity);
   }
+  if (const auto* spot = std::get_if<SpotLight>(&a.kind)) {
+    const auto& other = std::get<SpotLight>(b.kind);
+    EXPECT_EQ(spot->from, other.from);
+    EXPECT_EQ(spot->to, other.to);
+    EXPECT_EQ(spot->intensity, other.intensity);
+    EXPECT_EQ(spot->cone_angle, other.cone_angle);
+    EXPECT_EQ(spot->cone_delta, other.cone_delta);
+  }
   if (const auto* distant = std::get_if<DistantLight>(&a.kind)) {
     EXPECT_EQ(distant->direction_to_light, std::get<DistantLight>(b.kind).direction_to_light);
     EXPECT_EQ(distant->radiance, std::get<DistantLight>(b.kind).radiance);
@@ -127,6 +135,12 @@ void expect_equal(const SceneDescription& a, const SceneDescription& b) {
   EXPECT_EQ(a.film.width, b.film.width);
   EXPECT_EQ(a.film.height, b.film.height);
   EXPECT_EQ(a.film.save_fp16, b.film.save_fp16);
+  EXPECT_EQ(a.film.colour_space, b.film.colour_space);
+  EXPECT_EQ(a.film.iso, b.film.iso);
+  EXPECT_EQ(a.film.white_balance, b.film.white_balance);
+  EXPECT_EQ(a.film.max_component, b.film.max_component);
+  EXPECT_EQ(a.camera.shutter_open, b.camera.shutter_open);
+  EXPECT_EQ(a.camera.shutter_close, b.camera.shutter_close);
   EXPECT_EQ(a.sampler.kind, b.sampler.kind);
   EXPECT_EQ(a.sampler.pixel_samples, b.sampler.pixel_samples);
   EXPECT_EQ(a.sampler.seed, b.sampler.seed);
@@ -164,6 +178,18 @@ INSTANTIATE_TEST_SUITE_P(Scenes, WriteSceneFile,
                          testing::Values("fog.pbrt", "smoke.pbrt", "additions.pbrt", "surfaces.pbrt"));
 
 TEST(WriteScene, AnEmptySceneReadsBackTheSame) { expect_round_trip({}); }
+
+TEST(WriteScene, ExposureAndColourSpaceReadBackTheSame) {
+  SceneDescription scene;
+  scene.film.colour_space = ColourSpace::aces2065_1;
+  scene.film.iso = 150;
+  scene.film.white_balance = 5003;
+  scene.film.max_component = 12.5;
+  scene.camera.shutter_open = 0.25;
+  scene.camera.shutter_close = 0.3;
+  scene.lights.push_back({PointLight{{}, {{0.1f, 0.7f, 3}}}, {}});
+  expect_round_trip(scene);
+}
 
 TEST(WriteScene, EverySamplerAndFilterReadsBackTheSame) {
   using Kind = PixelFilter::Kind;
@@ -222,6 +248,7 @@ TEST(WriteScene, NumbersReadBackToTheLastBit) {
   SceneDescription scene;
   for (int i = 0; i < 50; ++i) {
     scene.lights.push_back({PointLight{{number(), number(), number()}, colour()}, {}});
+    scene.lights.push_back({SpotLight{{number(), 1, 2}, {0, number(), 5}, colour(), 40 + 0.3 * i, 0.7 * i}, {}});
     scene.lights.push_back({DistantLight{normalize({number(), number(), number()}), colour()}, {}});
     ShapeDescription shape;
     shape.world_from_object = translate({number(), number(), number()}) * rotate(number(), {1, number(), 2});
