@@ -11,29 +11,54 @@ std::array<float, 3> to_float(Vector3 v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-// Fresnel's equations at normal incidence.
-float normal_reflectance(float eta, float k) {
-  return ((eta - 1) * (eta - 1) + k * k) / ((eta + 1) * (eta + 1) + k * k);
+// Keeps a Blinn-Phong highlight from making light: at normal incidence, where it is brightest, it sends back what it
+// gets. Source: F. Giesen, "Phong Normalization Factor derivations", 2009: with c = (s + 2) (s + 4) / (8 pi (2^(-s/2) +
+// s)), the integral of c (n.h)^s cos over the hemisphere is 1.
+float highlight_scale(double s) {
+  return static_cast<float>((s + 2) * (s + 4) / (8 * std::numbers::pi * (std::exp2(-s / 2) + s)));
+}
+
+// Of diffuse light that meets glass of the index eta from within. By reciprocity it is 1 - (1 - R) / eta^2, with R,
+// that from without, the integral of 2 mu Fresnel(mu).
+float internal_reflectance(double eta) {
+  constexpr int steps = 4096;
+  double outer = 0;
+  for (int i = 0; i < steps; ++i) {
+    const double mu = (i + 0.5) / steps, squared = 1 - (1 - mu * mu) / (eta * eta);
+    const double inner_mu = std::sqrt(std::max(0.0, squared));
+    const double parallel = (eta * mu - inner_mu) / (eta * mu + inner_mu),
+                 perpendicular = (mu - eta * inner_mu) / (mu + eta * inner_mu);
+    outer += mu / steps * (parallel * parallel + perpendicular * perpendicular);
+  }
+  return static_cast<float>(1 - (1 - outer) / (eta * eta));
 }
 
 CompiledMaterial compile_material(const MaterialDescription& material) {
   CompiledMaterial c;
   if (const auto* diffuse = std::get_if<DiffuseMaterial>(&material)) {
-    c.diffuse = diffuse->reflectance;
+    c.diffuse = c.ambient = diffuse->reflectance;
   } else if (const auto* phong = std::get_if<BlinnPhongMaterial>(&material)) {
     c.diffuse = phong->diffuse;
     c.specular = phong->specular;
     c.mirror = phong->reflection;
+    c.refraction = phong->refraction;
+    c.ambient = phong->ambient;
     c.shininess = phong->shininess;
+    c.metallic = phong->metallic;
+    c.highlight_scale = highlight_scale(static_cast<double>(phong->shininess));
+    c.refractive_index = phong->index;
   } else if (const auto* conductor = std::get_if<ConductorMaterial>(&material)) {
     c.kind = CompiledMaterial::Kind::conductor;
     c.eta = conductor->eta;
     c.k = conductor->k;
-    for (int i = 0; i < channel_count; ++i) c.mirror[i] = normal_reflectance(c.eta[i], c.k[i]);
   } else if (const auto* dielectric = std::get_if<DielectricMaterial>(&material)) {
-    c.kind = CompiledMaterial::Kind::dielectric;
+    c.refraction = constant_spectrum(1);
     c.refractive_index = dielectric->eta;
-    c.mirror = constant_spectrum(normal_reflectance(dielectric->eta, 0));
+  } else if (const auto* coated = std::get_if<CoatedDiffuseMaterial>(&material)) {
+    c.kind = CompiledMaterial::Kind::coated_diffuse;
+    c.diffuse = c.ambient = coated->reflectance;
+    c.refractive_index = coated->eta;
+    c.internal_reflectance = internal_reflectance(static_cast<double>(coated->eta));
   }
   return c;
 }
@@ -89,6 +114,26 @@ void Compiler::add_shape(const ShapeDescription& shape) {
   add_geometry(shape, compiled);
   if (shape.light && compiled.material >= 0) compiled.light = add_area_light(*shape.light, compiled);
   compiled_.shapes.push_back(compiled);
+  if (const auto* phong = std::get_if<BlinnPhongMaterial>(&shape.material);
+      phong && !is_zero(phong->refraction) && !is_zero(phong->absorption))
+    add_absorption(compiled, phong->absorption);
+}
+
+void Compiler::add_absorption(CompiledShape shape, const Spectrum& sigma_a) {
+  auto found = std::find_if(absorbers_.begin(), absorbers_.end(), [&](std::int32_t medium) {
+    return compiled_.media[static_cast<std::size_t>(medium)].sigma_t == sigma_a;
+  });
+  if (found == absorbers_.end()) {
+    CompiledMedium medium;
+    medium.sigma_t = sigma_a;
+    medium.phase = phase_kind("isotropic");
+    found = absorbers_.insert(absorbers_.end(), static_cast<std::int32_t>(compiled_.media.size()));
+    compiled_.media.push_back(medium);
+  }
+  shape.material = shape.light = -1;
+  shape.boundary = static_cast<std::int32_t>(compiled_.boundaries.size());
+  compiled_.boundaries.push_back({*found, no_medium});
+  compiled_.shapes.push_back(shape);
 }
 
 void Compiler::add_geometry(const ShapeDescription& shape, CompiledShape& compiled) {

@@ -59,6 +59,20 @@ bool keeps_angles(const Transform& t) {
          std::abs(dot(x, y)) < tolerance && std::abs(dot(y, z)) < tolerance && std::abs(dot(z, x)) < tolerance;
 }
 
+SphereLight read_sphere(ParameterList& p, const Transform& ctm) {
+  SphereLight light;
+  light.intensity = read_colour(p, "I", "power", 4 * std::numbers::pi);
+  light.from = ctm.point(p.triple(ParameterType::point3, "from", {0, 0, 0}));
+  light.radius = p.number("radius", 1, Range::above(0)) * length(ctm.vector({1, 0, 0}));
+  if (!(length(light.from) <= max_float && light.radius <= max_float))
+    p.error(p.place(), "the place of LightSource \"sphere\" is out of range");
+  if (!keeps_angles(ctm))
+    p.error(p.place(), "LightSource \"sphere\" is round, but the current transformation stretches it");
+  if (!(static_cast<double>(max_value(light.intensity)) <= max_float * light.radius * light.radius))
+    p.error(p.place(), "LightSource \"sphere\" is too small for its intensity");
+  return light;
+}
+
 }  // namespace
 
 InfiniteLight Reader::infinite_light(ParameterList& p, const Transform& ctm) {
@@ -83,7 +97,7 @@ InfiniteLight Reader::infinite_light(ParameterList& p, const Transform& ctm) {
 
 void Reader::light_source() {
   const std::string type = string_argument("a type");
-  const std::vector<std::string_view> types = {"point", "distant", "infinite"};
+  const std::vector<std::string_view> types = {"point", "sphere", "distant", "infinite", "ambient"};
   if (std::find(types.begin(), types.end(), type) == types.end())
     unknown_type(argument_, "LightSource", type, types, {"spot", "goniometric", "projection"});
   ParameterList p = parameters(fmt::format("LightSource \"{}\"", type), "light");
@@ -96,8 +110,12 @@ void Reader::light_source() {
     const Vector3 from = ctm.point(p.triple(ParameterType::point3, "from", {0, 0, 0}));
     if (!(length(from) <= max_float)) p.error(p.place(), "the place of LightSource \"point\" is out of range");
     light.kind = PointLight{from, intensity};
+  } else if (type == "sphere") {
+    light.kind = read_sphere(p, ctm);
   } else if (type == "distant") {
     light.kind = read_distant(p, ctm);
+  } else if (type == "ambient") {
+    light.kind = AmbientLight{read_colour(p, "L", "", 1)};
   } else {
     light.kind = infinite_light(p, ctm);
   }

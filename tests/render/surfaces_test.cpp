@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 
+#include "compile/compile.h"
 #include "render/estimates.h"
 #include "render/fresnel.h"
 #include "render/path_tracers.h"
@@ -60,7 +61,7 @@ TEST(Surfaces, RefractionObeysSnell) {
   scene.shapes.resize(1);
   scene.shapes[0].material = 0;
   scene.materials.resize(1);
-  scene.materials[0].kind = CompiledMaterial::Kind::dielectric;
+  scene.materials[0].refraction = constant_spectrum(1);
   scene.materials[0].refractive_index = 1.5f;
   SurfaceHit hit;
   hit.shape = 0;
@@ -110,6 +111,95 @@ TEST_P(Furnace, APerfectConductorLosesNoLight) {
   const auto metal = [](float k) { return ConductorMaterial{constant_spectrum(1), constant_spectrum(k)}; };
   expect_estimate(furnace(GetParam(), metal(200)), 1, 1e-4, 1e-3);
   expect_rejected(furnace(GetParam(), metal(3)), 1);
+}
+
+// A facing square under a white sky shows all that it sends back: a highlight takes no more than its colour, for every
+// shininess, and a metal's is tinted by the diffuse colour.
+// Catches a highlight with another factor, and a sampler whose density is not the one that it is said to have.
+TEST_P(Furnace, BlinnPhongSendsBackItsColours) {
+  const auto square = [&](float specular, float shininess, float metallic) {
+    SceneDescription s = needle_scene({0, 0, -1});
+    s.integrator.name = GetParam();
+    s.shapes = {square_facing_z({0, 0, 0}, 3, 0)};
+    BlinnPhongMaterial m{constant_spectrum(0.25f), constant_spectrum(specular), constant_spectrum(0.1f), shininess};
+    m.metallic = metallic;
+    s.shapes[0].material = m;
+    s.lights = {sky(1)};
+    return s;
+  };
+  for (const float shininess : {0.0f, 8.0f, 1000.0f}) {
+    expect_estimate(square(0.5f, shininess, 0), 0.85, 1e-5, 1e-3);
+    expect_rejected(square(0.52f, shininess, 0), 0.85);
+  }
+  expect_estimate(square(0.6f, 32, 0.5f), 0.25 + 0.6 * 0.625 + 0.1, 1e-5, 1e-3);
+}
+
+// Catches a mirror or glass that is taken with another chance than it is weighed with.
+TEST_P(Furnace, GlassUnderAMirrorMakesAndLosesNoLight) {
+  BlinnPhongMaterial m{{}, {}, constant_spectrum(0.3f), 1};
+  m.refraction = constant_spectrum(0.7f);
+  expect_estimate(furnace(GetParam(), m), 1, 1e-6, 1e-3);
+  m.refraction = constant_spectrum(0.6f);
+  expect_rejected(furnace(GetParam(), m), 1);
+}
+
+// Light that the coat lets through goes to and fro between base and coat until it leaves.
+TEST_P(Furnace, ACoatOverWhiteMakesAndLosesNoLight) {
+  expect_estimate(furnace(GetParam(), CoatedDiffuseMaterial{constant_spectrum(1), 1.5f}), 1, 2e-6, 1e-3);
+  expect_rejected(furnace(GetParam(), CoatedDiffuseMaterial{constant_spectrum(0.97f), 1.5f}), 1);
+}
+
+// Seen at 60 degrees: F + (1 - F) rho (1 - R_i) / (1 - rho R_i), with the reflectance from within as the test of
+// Fresnel's equations has it.
+TEST_P(Furnace, ACoatedSurfaceSendsBackItsAlbedo) {
+  SceneDescription s = needle_scene();
+  s.integrator.name = GetParam();
+  s.camera.world_from_camera = rotate(60, {0, 1, 0}) * translate({0, 0, -1});
+  s.shapes = {square_facing_z({0, 0, 0}, 3, 0)};
+  s.shapes[0].material = CoatedDiffuseMaterial{constant_spectrum(0.6f), 1.5f};
+  s.lights = {sky(1)};
+  const double f = static_cast<double>(dielectric(0.5f, 1.5f)), r = diffuse_reflectance(1 / 1.5f);
+  const double expected = f + (1 - f) * 0.6 * (1 - r) / (1 - 0.6 * r);
+  expect_estimate(s, expected, 1e-5, 1e-3);
+  expect_rejected(s, f + (1 - f) * 0.6 * (1 - r));
+  // Light is found by lamps and by paths alike.
+  ShapeDescription lamp = sphere_shape({0.3, 0.2, -2}, 0.7, "");
+  lamp.material = DiffuseMaterial{{}};
+  lamp.light = AreaLight{constant_spectrum(1), false, 0};
+  s.shapes.push_back(lamp);
+  expect_estimate(s, expected, 1e-5, 1e-3);
+}
+
+TEST_P(Furnace, AHighlightIsFoundByLampsAndByPathsAlike) {
+  SceneDescription s = needle_scene({0, 0, -0.5});
+  s.integrator.name = GetParam();
+  s.shapes = {square_facing_z({0, 0, 0}, 3, 0), sphere_shape({0.3, 0.2, -2}, 0.7, "")};
+  s.shapes[0].material = BlinnPhongMaterial{constant_spectrum(0.2f), constant_spectrum(0.5f), {}, 12};
+  s.shapes[1].material = DiffuseMaterial{{}};
+  s.shapes[1].light = AreaLight{constant_spectrum(1), false, 0};
+  s.lights = {sky(1)};
+  expect_estimate(s, 0.7, 1e-5, 1e-3);
+  s.shapes[1].light->radiance = constant_spectrum(1.1f);
+  expect_rejected(s, 0.7);
+}
+
+// f is the same with light and viewer exchanged.
+TEST(Surfaces, ReflectionIsReciprocal) {
+  SceneDescription s = needle_scene();
+  s.shapes = {square_facing_z({0, 0, 0}, 1, 0), square_facing_z({0, 0, 1}, 1, 0)};
+  s.shapes[0].material = CoatedDiffuseMaterial{constant_spectrum(0.6f), 1.5f};
+  s.shapes[1].material = BlinnPhongMaterial{constant_spectrum(0.2f), constant_spectrum(0.5f), {}, 12};
+  std::vector<Diagnostic> warnings;
+  const CompiledScene scene = compile(s, 1, warnings);
+  const kernel::vec3 a = normalize(kernel::vec3(0.3f, 0.5f, 0.4f)), b = normalize(kernel::vec3(-0.5f, 0.1f, 0.9f));
+  for (int shape : {0, 1}) {
+    SurfaceHit hit;
+    hit.shape = shape;
+    hit.normal = hit.shading_normal = {0, 0, 1};
+    const float there = eval_surface(scene, hit, -a, b)[0] / b.z, back = eval_surface(scene, hit, -b, a)[0] / a.z;
+    EXPECT_GT(there, 0.01f);
+    EXPECT_NEAR(there, back, 1e-6f);
+  }
 }
 
 }  // namespace
