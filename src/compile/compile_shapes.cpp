@@ -1,7 +1,11 @@
 #include <algorithm>
 #include <numbers>
+#include <tuple>
 
+#include "base/fresnel.h"
+#include "base/microfacet.h"
 #include "compile/compiler.h"
+#include "compiled/coat.h"
 
 namespace brume {
 
@@ -18,19 +22,37 @@ float highlight_scale(double s) {
   return static_cast<float>((s + 2) * (s + 4) / (8 * std::numbers::pi * (std::exp2(-s / 2) + s)));
 }
 
-// Of diffuse light that meets glass of the index eta from within. By reciprocity it is 1 - (1 - R) / eta^2, with R,
-// that from without, the integral of 2 mu Fresnel(mu).
-float internal_reflectance(double eta) {
+// Of the light that meets a rough coat at a cosine, how much it lets in: what its facets do not reflect, each one as
+// Fresnel has it; light that would hit a second facet is let in. By quadrature over the facets that are seen.
+float rough_transmittance(float cosine, float eta, float alpha) {
+  constexpr int steps = 48;
+  const kernel::vec3 n(0, 0, 1), v(std::sqrt(1 - cosine * cosine), 0, cosine);
+  double reflected = 0;
+  for (int i = 0; i < steps; ++i)
+    for (int j = 0; j < steps; ++j) {
+      const auto middle = [](int k) { return (static_cast<float>(k) + 0.5f) / steps; };
+      const kernel::vec3 h = draw_facet(n, v, alpha, middle(i), middle(j));
+      const float along = dot(h, v), out = 2 * along * h.z - v.z;
+      if (out <= 0) continue;
+      float refracted_cosine = 0;
+      const float hidden = hidden_facets(cosine, alpha);
+      reflected += static_cast<double>(fresnel_dielectric(along, eta, refracted_cosine) * (1 + hidden) /
+                                       (1 + hidden + hidden_facets(out, alpha)));
+    }
+  return static_cast<float>(1 - reflected / (steps * steps));
+}
+
+// Of diffuse light that meets the coat from within. By reciprocity it is 1 - T / eta^2, with T, how much is let in of
+// diffuse light from without, the integral of 2 mu times that at the cosine mu.
+float internal_reflectance(const CompiledMaterial& m) {
   constexpr int steps = 4096;
-  double outer = 0;
+  double let_in = 0;
   for (int i = 0; i < steps; ++i) {
-    const double mu = (i + 0.5) / steps, squared = 1 - (1 - mu * mu) / (eta * eta);
-    const double inner_mu = std::sqrt(std::max(0.0, squared));
-    const double parallel = (eta * mu - inner_mu) / (eta * mu + inner_mu),
-                 perpendicular = (mu - eta * inner_mu) / (mu + eta * inner_mu);
-    outer += mu / steps * (parallel * parallel + perpendicular * perpendicular);
+    const float mu = (static_cast<float>(i) + 0.5f) / steps;
+    let_in += 2 * static_cast<double>(mu * coat_transmittance(m, mu)) / steps;
   }
-  return static_cast<float>(1 - (1 - outer) / (eta * eta));
+  const auto eta = static_cast<double>(m.refractive_index);
+  return static_cast<float>(1 - let_in / (eta * eta));
 }
 
 CompiledMaterial compile_material(const MaterialDescription& material) {
@@ -51,6 +73,9 @@ CompiledMaterial compile_material(const MaterialDescription& material) {
     c.kind = CompiledMaterial::Kind::conductor;
     c.eta = conductor->eta;
     c.k = conductor->k;
+    c.alpha = conductor->alpha;
+    if (c.alpha > 0)
+      for (int i = 0; i < channel_count; ++i) c.ambient[i] = fresnel_conductor(1, c.eta[i], c.k[i]);
   } else if (const auto* dielectric = std::get_if<DielectricMaterial>(&material)) {
     c.refraction = constant_spectrum(1);
     c.refractive_index = dielectric->eta;
@@ -58,7 +83,13 @@ CompiledMaterial compile_material(const MaterialDescription& material) {
     c.kind = CompiledMaterial::Kind::coated_diffuse;
     c.diffuse = c.ambient = coated->reflectance;
     c.refractive_index = coated->eta;
-    c.internal_reflectance = internal_reflectance(static_cast<double>(coated->eta));
+    c.alpha = coated->alpha;
+    constexpr auto intervals = static_cast<float>(std::tuple_size_v<decltype(c.coat_transmittance)> - 1);
+    if (c.alpha > 0)
+      for (std::size_t i = 0; i < c.coat_transmittance.size(); ++i)
+        c.coat_transmittance[i] =
+            rough_transmittance(std::max(1e-3f, static_cast<float>(i) / intervals), c.refractive_index, c.alpha);
+    c.internal_reflectance = internal_reflectance(c);
   }
   return c;
 }

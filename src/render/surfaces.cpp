@@ -2,7 +2,9 @@
 
 #include <numbers>
 
-#include "render/fresnel.h"
+#include "base/fresnel.h"
+#include "base/microfacet.h"
+#include "compiled/coat.h"
 
 namespace brume {
 
@@ -19,11 +21,6 @@ struct Chances {
 
 float mean_of(const Spectrum& s) { return sum(s) / channel_count; }
 
-float coat_transmittance(const CompiledMaterial& m, float cosine) {
-  float refracted_cosine = 0;
-  return 1 - fresnel_dielectric(cosine, m.refractive_index, refracted_cosine);
-}
-
 // What the base of a coated surface sends back of diffuse light under the coat: it goes to and fro between the two.
 Spectrum base_reflectance(const CompiledMaterial& m) {
   Spectrum s;
@@ -35,52 +32,94 @@ Spectrum highlight_colour(const CompiledMaterial& m) {
   return m.specular * (constant_spectrum(1 - m.metallic) + m.metallic * m.diffuse);
 }
 
+// Of a metal or of a coat.
+Spectrum fresnel(const CompiledMaterial& m, float cosine) {
+  Spectrum s;
+  float refracted_cosine = 0;
+  if (m.kind == CompiledMaterial::Kind::coated_diffuse)
+    return constant_spectrum(fresnel_dielectric(cosine, m.refractive_index, refracted_cosine));
+  for (int c = 0; c < channel_count; ++c) s[c] = fresnel_conductor(cosine, m.eta[c], m.k[c]);
+  return s;
+}
+
 // In proportion to what each way sends on of light that comes along `direction`.
 Chances chances_of(const CompiledMaterial& m, const SmoothLobes& lobes, vec3 n, vec3 direction) {
   Chances c{mean_of(lobes.reflected), mean_of(lobes.refracted), mean_of(m.diffuse), mean_of(highlight_colour(m))};
+  const float cosine = clamped_cosine(n, -direction);
   if (m.kind == CompiledMaterial::Kind::coated_diffuse)
-    c.diffuse = coat_transmittance(m, clamped_cosine(n, -direction)) * (1 - m.internal_reflectance) *
-                mean_of(base_reflectance(m));
+    c.diffuse = coat_transmittance(m, cosine) * (1 - m.internal_reflectance) * mean_of(base_reflectance(m));
+  if (m.alpha > 0) c.highlight = mean_of(fresnel(m, cosine));
   const float total = c.reflected + c.refracted + c.diffuse + c.highlight;
   if (!(total > 0)) return {1, 0, 0, 0};
   return {c.reflected / total, c.refracted / total, c.diffuse / total, c.highlight / total};
 }
 
-// The cosine between the normal and the direction half way between two others.
-float half_cosine(vec3 n, vec3 a, vec3 b) {
+// The direction half way between two others, and its cosine to the normal; 0 where there is none.
+struct HalfWay {
+  vec3 direction{0, 0, 0};
+  float cosine = 0;
+};
+
+HalfWay half_way(vec3 n, vec3 a, vec3 b) {
   const vec3 sum = a + b;
   const float squared = dot(sum, sum);
-  return squared > 0 ? clamped_cosine(n, sum) / std::sqrt(squared) : 0;
+  if (!(squared > 0)) return {};
+  const vec3 direction = (1 / std::sqrt(squared)) * sum;
+  return {direction, clamped_cosine(n, direction)};
 }
 
-// Without the mirror and the glass.
+// The reflection of facets: F D / (4 n.l n.v (1 + Lambda + Lambda')).
+Spectrum facets_bsdf(const CompiledMaterial& m, vec3 n, vec3 to_light, vec3 to_viewer) {
+  const float light = clamped_cosine(n, to_light), viewer = clamped_cosine(n, to_viewer);
+  const HalfWay h = half_way(n, to_light, to_viewer);
+  if (light == 0 || viewer == 0 || h.cosine == 0) return {};
+  const float seen = 1 / (1 + hidden_facets(light, m.alpha) + hidden_facets(viewer, m.alpha));
+  return (facet_density(h.cosine, m.alpha) * seen / (4 * light * viewer)) *
+         fresnel(m, clamped_cosine(h.direction, to_viewer));
+}
+
+Spectrum base_bsdf(const CompiledMaterial& m, vec3 n, vec3 to_light, vec3 to_viewer) {
+  const float let_through =
+      coat_transmittance(m, clamped_cosine(n, to_light)) * coat_transmittance(m, clamped_cosine(n, to_viewer));
+  return (let_through / (pi * m.refractive_index * m.refractive_index)) * base_reflectance(m);
+}
+
+// Without mirrors and glass.
 Spectrum bsdf(const CompiledMaterial& m, vec3 n, vec3 to_light, vec3 to_viewer) {
-  if (m.kind == CompiledMaterial::Kind::coated_diffuse)
-    return (coat_transmittance(m, clamped_cosine(n, to_light)) * coat_transmittance(m, clamped_cosine(n, to_viewer)) /
-            (pi * m.refractive_index * m.refractive_index)) *
-           base_reflectance(m);
+  if (m.kind != CompiledMaterial::Kind::blinn_phong) {
+    Spectrum f;
+    if (m.kind == CompiledMaterial::Kind::coated_diffuse) f = base_bsdf(m, n, to_light, to_viewer);
+    return m.alpha > 0 ? f + facets_bsdf(m, n, to_light, to_viewer) : f;
+  }
   const Spectrum diffuse = (1 / pi) * m.diffuse;
   if (is_zero(m.specular)) return diffuse;
-  const float cosine = half_cosine(n, to_light, to_viewer);
+  const float cosine = half_way(n, to_light, to_viewer).cosine;
   if (cosine == 0) return diffuse;
   return diffuse + m.highlight_scale * kernel::pow_positive(cosine, m.shininess) * highlight_colour(m);
 }
 
-// The density of directions that are drawn: by the cosine, or as the mirror's by a normal h that is drawn with a
-// density of (s + 1) / (2 pi) (n.h)^s.
+// The density of directions of the highlight: they are the mirror's about a normal h, drawn from the facets that are
+// seen, or for Blinn-Phong with a density of (s + 1) / (2 pi) (n.h)^s.
+float highlight_pdf(const CompiledMaterial& m, vec3 n, vec3 to_light, vec3 to_viewer) {
+  const HalfWay h = half_way(n, to_light, to_viewer);
+  if (h.cosine == 0) return 0;
+  if (m.alpha > 0) {
+    const float viewer = clamped_cosine(n, to_viewer);
+    return viewer > 0 ? facet_density(h.cosine, m.alpha) / (4 * viewer * (1 + hidden_facets(viewer, m.alpha))) : 0;
+  }
+  const float density = (m.shininess + 1) / (2 * pi) * kernel::pow_positive(h.cosine, m.shininess);
+  return density / (4 * clamped_cosine(h.direction, to_viewer));
+}
+
 float bsdf_pdf(const CompiledMaterial& m, const Chances& chances, vec3 n, vec3 to_light, vec3 to_viewer) {
-  float pdf = chances.diffuse * clamped_cosine(n, to_light) / pi;
-  if (chances.highlight == 0) return pdf;
-  const float cosine = half_cosine(n, to_light, to_viewer);
-  if (cosine == 0) return pdf;
-  const float density = (m.shininess + 1) / (2 * pi) * kernel::pow_positive(cosine, m.shininess);
-  // The half way direction makes equal angles with both, whose cosine is half the length of their sum.
-  return pdf + chances.highlight * density / (2 * length(to_light + to_viewer));
+  const float pdf = chances.diffuse * clamped_cosine(n, to_light) / pi;
+  return chances.highlight > 0 ? pdf + chances.highlight * highlight_pdf(m, n, to_light, to_viewer) : pdf;
 }
 
 vec3 draw_direction(const CompiledMaterial& m, vec3 n, vec3 direction, bool highlight, RandomStream& random) {
   const auto [u, turns] = random.next_pair();
   if (!highlight) return kernel::direction_at_cosine(n, std::sqrt(1 - u), turns);
+  if (m.alpha > 0) return reflect(direction, draw_facet(n, -direction, m.alpha, u, turns));
   const float cosine = std::pow(1 - u, 1 / (m.shininess + 1));
   return reflect(direction, kernel::direction_at_cosine(n, cosine, turns));
 }
@@ -108,15 +147,9 @@ SmoothLobes smooth_lobes(const CompiledMaterial& m, const SurfaceHit& hit, vec3 
   const vec3 n = hit.shading_normal;
   const float cosine = std::clamp(-dot(n, direction), 0.0f, 1.0f);
   SmoothLobes lobes;
-  switch (m.kind) {
-    case CompiledMaterial::Kind::conductor:
-      for (int c = 0; c < channel_count; ++c) lobes.reflected[c] = fresnel_conductor(cosine, m.eta[c], m.k[c]);
-      return lobes;
-    case CompiledMaterial::Kind::coated_diffuse:
-      lobes.reflected = constant_spectrum(1 - coat_transmittance(m, cosine));
-      return lobes;
-    case CompiledMaterial::Kind::blinn_phong:
-      break;
+  if (m.kind != CompiledMaterial::Kind::blinn_phong) {
+    if (m.alpha == 0) lobes.reflected = fresnel(m, cosine);
+    return lobes;
   }
   lobes.reflected = m.mirror;
   if (is_zero(m.refraction)) return lobes;
@@ -156,7 +189,7 @@ Spectrum eval_surface(const CompiledScene& scene, const SurfaceHit& hit, vec3 di
 }
 
 bool scatters_widely(const CompiledMaterial& material) {
-  return !is_zero(material.diffuse) || !is_zero(material.specular);
+  return !is_zero(material.diffuse) || !is_zero(material.specular) || material.alpha > 0;
 }
 
 Spectrum straight_transmittance(const CompiledMaterial& material, float cosine) {

@@ -122,18 +122,21 @@ struct BlinnPhongMaterial {
 };
 // No surface: the boundary of a medium.
 struct InterfaceMaterial {};
-// A smooth metal, by its complex index of refraction.
+// A metal, by its complex index of refraction. Here and below alpha is the width of the distribution of facets
+// (base/microfacet.h); 0 is smooth.
 struct ConductorMaterial {
   Spectrum eta, k;
+  float alpha = 0;
 };
 // Smooth glass, by the index of refraction of its inside over that of its outside.
 struct DielectricMaterial {
   float eta = 1.5f;
 };
-// A diffuse base under a smooth clear coat, whose index of refraction over that of the outside is eta.
+// A diffuse base under a clear coat, whose index of refraction over that of the outside is eta.
 struct CoatedDiffuseMaterial {
   Spectrum reflectance = constant_spectrum(0.5f);
   float eta = 1.5f;
+  float alpha = 0;
 };
 using MaterialDescription = std::variant<DiffuseMaterial, BlinnPhongMaterial, InterfaceMaterial, ConductorMaterial,
                                          DielectricMaterial, CoatedDiffuseMaterial>;

@@ -13,6 +13,7 @@ namespace {
 constexpr double max_shininess = 1e6;
 constexpr double least_index = 0.01, greatest_index = 100;
 constexpr float usual_index = 1.5f;
+constexpr double least_alpha = 1e-3;
 
 // pbrt's metals, at the wavelengths that stand for red, green and blue: 617, 549 and 471 nm, photons of 2.01, 2.26 and
 // 2.63 eV. Rounded from P. B. Johnson and R. W. Christy, "Optical constants of the noble metals", Phys. Rev. B 6, 1972
@@ -62,17 +63,26 @@ Spectrum read_complex_index(ParameterList& p, std::string_view parameter, Spectr
   return {};
 }
 
-void read_roughness(ParameterList& p) {
+// pbrt's: alpha is the root of the roughness unless that is switched off, and a narrow distribution is none at all.
+float read_roughness(ParameterList& p) {
+  const Range range = Range::from_to(0, 1);
+  const double roughness = p.number("roughness", 0, range);
+  const double u = p.number("uroughness", roughness, range), v = p.number("vroughness", roughness, range);
+  if (u != v) p.warn({"float uroughness", "float vroughness"}, "is read as the root of uroughness times vroughness");
+  const double mean = std::sqrt(u * v), alpha = p.boolean("remaproughness", true) ? std::sqrt(mean) : mean;
+  return alpha < least_alpha ? 0 : static_cast<float>(alpha);
+}
+
+void refuse_roughness(ParameterList& p) {
   for (const std::string_view name : {"roughness", "uroughness", "vroughness"})
     if (p.number(name, 0) != 0)
-      p.value_error(*p.find(ParameterType::float_, name), 0, "must be 0: rough surfaces are not supported yet");
+      p.value_error(*p.find(ParameterType::float_, name), 0, "must be 0: rough glass is not supported yet");
   p.ignore({"bool remaproughness"});
 }
 
 // A reflectance r at normal incidence is that of the index 1 + i k with k = 2 sqrt(r / (1 - r)).
 ConductorMaterial read_conductor(ParameterList& p) {
-  read_roughness(p);
-  ConductorMaterial m{constant_spectrum(1), {}};
+  ConductorMaterial m{constant_spectrum(1), {}, read_roughness(p)};
   if (!p.has(ParameterType::rgb, "reflectance") && !p.has(ParameterType::spectrum, "reflectance")) {
     m.eta = read_complex_index(p, "eta", &Metal::eta);
     m.k = read_complex_index(p, "k", &Metal::k);
@@ -116,18 +126,17 @@ float read_eta(ParameterList& p) {
 }
 
 DielectricMaterial read_dielectric(ParameterList& p) {
-  read_roughness(p);
+  refuse_roughness(p);
   return {read_eta(p)};
 }
 
 CoatedDiffuseMaterial read_coated_diffuse(ParameterList& p) {
-  read_roughness(p);
   // pbrt's way to compute the same surface by random walks between base and coat.
   p.ignore({"float thickness", "float g", "integer maxdepth", "integer nsamples"});
   for (const ParameterType type : {ParameterType::rgb, ParameterType::spectrum})
     if (const Parameter* albedo = p.find(type, "albedo"); albedo && !is_zero(p.colour("albedo", {}, ColourUse::albedo)))
       p.value_error(*albedo, 0, "must be 0: a coat that scatters is not supported");
-  return {p.colour("reflectance", constant_spectrum(0.5f), ColourUse::albedo), read_eta(p)};
+  return {p.colour("reflectance", constant_spectrum(0.5f), ColourUse::albedo), read_eta(p), read_roughness(p)};
 }
 
 DiffuseMaterial read_diffuse(ParameterList& p) {

@@ -244,12 +244,17 @@ class Writer {
     line("Material \"conductor\"");
     colour("eta", m.eta);
     colour("k", m.k);
+    roughness(m.alpha);
   }
   void material(const DielectricMaterial& m) { line("Material \"dielectric\" \"float eta\" {}", m.eta); }
 
   void material(const CoatedDiffuseMaterial& m) {
     line("Material \"coateddiffuse\" \"float eta\" {}", m.eta);
     colour("reflectance", m.reflectance);
+    roughness(m.alpha);
+  }
+  void roughness(float alpha) {
+    if (alpha > 0) line("  \"float roughness\" {} \"bool remaproughness\" false", alpha);
   }
 
   void area_light(const AreaLight& l) {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "render/estimates.h"
-#include "render/fresnel.h"
+#include "base/fresnel.h"
 
 namespace brume {
 namespace {

@@ -33,6 +33,17 @@ TEST(ReadMaterials, ConductorsByNameByNumbersAndByReflectance) {
   EXPECT_EQ(std::get<ConductorMaterial>(material_of("\"conductor\" \"rgb eta\" [1 2 3] \"rgb k\" [4 5 6]")).k[2], 6);
 }
 
+TEST(ReadMaterials, RoughnessIsPbrts) {
+  const auto alpha = [](const std::string& text) {
+    return std::get<ConductorMaterial>(material_of("\"conductor\" " + text)).alpha;
+  };
+  EXPECT_EQ(alpha(""), 0);
+  EXPECT_EQ(alpha("\"float roughness\" 0.25"), 0.5f);
+  EXPECT_EQ(alpha("\"float roughness\" 0.25 \"bool remaproughness\" false"), 0.25f);
+  EXPECT_EQ(alpha("\"float uroughness\" 0.04 \"float vroughness\" 0.16 \"bool remaproughness\" false"), 0.08f);
+  EXPECT_EQ(alpha("\"float roughness\" 0.0005 \"bool remaproughness\" false"), 0);
+}
+
 TEST(ReadMaterials, DielectricsByNumberAndByName) {
   EXPECT_EQ(std::get<DielectricMaterial>(material_of("\"dielectric\"")).eta, 1.5f);
   EXPECT_EQ(std::get<DielectricMaterial>(material_of("\"dielectric\" \"float eta\" 1.33")).eta, 1.33f);

@@ -65,10 +65,12 @@ void expect_equal(const ShapeDescription& a, const ShapeDescription& b) {
   if (const auto* coated = std::get_if<CoatedDiffuseMaterial>(&a.material)) {
     EXPECT_EQ(coated->reflectance, std::get<CoatedDiffuseMaterial>(b.material).reflectance);
     EXPECT_EQ(coated->eta, std::get<CoatedDiffuseMaterial>(b.material).eta);
+    EXPECT_EQ(coated->alpha, std::get<CoatedDiffuseMaterial>(b.material).alpha);
   }
   if (const auto* conductor = std::get_if<ConductorMaterial>(&a.material)) {
     EXPECT_EQ(conductor->eta, std::get<ConductorMaterial>(b.material).eta);
     EXPECT_EQ(conductor->k, std::get<ConductorMaterial>(b.material).k);
+    EXPECT_EQ(conductor->alpha, std::get<ConductorMaterial>(b.material).alpha);
   }
   if (const auto* dielectric = std::get_if<DielectricMaterial>(&a.material)) {
     EXPECT_EQ(dielectric->eta, std::get<DielectricMaterial>(b.material).eta);
