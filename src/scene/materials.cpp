@@ -68,7 +68,11 @@ float read_roughness(ParameterList& p) {
   const Range range = Range::from_to(0, 1);
   const double roughness = p.number("roughness", 0, range);
   const double u = p.number("uroughness", roughness, range), v = p.number("vroughness", roughness, range);
-  if (u != v) p.warn({"float uroughness", "float vroughness"}, "is read as the root of uroughness times vroughness");
+  if (u != v)
+    p.warning(p.place(),
+              fmt::format("the roughness of {} is taken for the same in all directions: the root of uroughness "
+                          "times vroughness",
+                          p.owner()));
   const double mean = std::sqrt(u * v), alpha = p.boolean("remaproughness", true) ? std::sqrt(mean) : mean;
   return alpha < least_alpha ? 0 : static_cast<float>(alpha);
 }
@@ -200,7 +204,7 @@ MaterialDescription Reader::read_material(const std::string& given, const Place&
                  {"thindielectric", "coatedconductor", "diffusetransmission", "subsurface", "mix", "measured", "hair"});
   if (const auto* phong = std::get_if<BlinnPhongMaterial>(&material))
     if (const std::string doubt = doubt_about(*phong); !doubt.empty())
-      messages_.warning(p.place(), fmt::format("{} {}", p.owner(), doubt));
+      p.warning(p.place(), fmt::format("{} {}", p.owner(), doubt));
   p.refuse({"texture displacement", "string normalmap", "float displacement"}, "is not supported yet");
   p.finish();
   return material;

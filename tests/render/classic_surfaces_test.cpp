@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/estimates.h"
 #include "base/fresnel.h"
+#include "render/estimates.h"
 
 namespace brume {
 namespace {
@@ -191,6 +191,22 @@ TEST(ClassicRefraction, ARayCrossesAGlassBallAsItShould) {
   s.shapes[1] = emitting_square_facing_z(target, 1e-3, 5);
   s.shapes[0].material = DielectricMaterial{1.51f};
   EXPECT_EQ(radiance(s), 0);
+}
+
+// A thin scatterer in a slab of glass, lit at an angle: light comes in through one face, and goes to the camera through
+// the other, where radiance loses the n^2 that it gained.
+TEST(ClassicRefraction, LiquidInGlassIsLitThroughTheGlass) {
+  SceneDescription s = needle_scene({0, 0, -3});
+  s.integrator.max_depth = 2;
+  s.media = {homogeneous_medium("liquid", 0, 1e-4f)};
+  s.shapes = {with_material(box_shape({-50, -50, 0}, {50, 50, 1}, "liquid"), DielectricMaterial{1.5f})};
+  s.lights = {distant_light({0.8, 0, -0.6}, 3)};
+  const double expected = 0.96 / 2.25 * 1e-4 / (4 * pi) * 3 * (1 - fresnel(0.6, 1.5));
+  EXPECT_NEAR(radiance(s), expected, 1e-3 * expected);
+  s.lights = {distant_light({0.8, 0, 0.6}, 3)};  // through the other face
+  EXPECT_NEAR(radiance(s), expected, 1e-3 * expected);
+  s.shapes[0].material = InterfaceMaterial{};
+  EXPECT_GT(radiance(s), 2 * expected);  // a twin without glass
 }
 
 // What is reflected to and fro in a ball adds up to all of the light, but for what is dropped.
