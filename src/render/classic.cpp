@@ -58,25 +58,40 @@ Spectrum ClassicIntegrator::follow(const Branch& branch, RandomStream& random) {
   Spectrum transmittance = constant_spectrum(1);
   Spectrum result = branch.throughput * cross_media(ray, scatters, random, transmittance);
   at_end.throughput = branch.throughput * transmittance;
-  if (!is_hit) return result + at_end.throughput * background(ray.direction);
-  result = result + at_end.throughput * emitted_radiance(scene_, hit, ray.direction);
+  if (!is_hit) return result + at_end.throughput * background(at_end);
+  const std::int32_t light = scene_.shapes[static_cast<std::size_t>(hit.shape)].light;
+  if (light >= 0)
+    result = result + share(at_end, scene_.lights[static_cast<std::size_t>(light)], hit) * at_end.throughput *
+                          emitted_radiance(scene_, hit, ray.direction);
   if (!scatters || is_zero(at_end.throughput)) return result;
   hit = facing(hit, ray.direction);
-  branch_off(at_end, hit);
+  branch_off(at_end, hit, random);
   return result +
          at_end.throughput * (material_at(scene_, hit).ambient * scene_.ambient + direct_light(ray, hit, random));
 }
 
-// The reflected and the refracted ray. A shading normal can send either to the wrong side, where it is dropped.
-void ClassicIntegrator::branch_off(const Branch& branch, const SurfaceHit& hit) {
-  const SmoothLobes lobes = smooth_lobes(material_at(scene_, hit), hit, branch.ray.direction);
-  const auto add = [&](vec3 direction, const Spectrum& weight, bool transmitted) {
-    const Spectrum throughput = branch.throughput * weight;
-    if (max_value(throughput) < negligible_transmittance || (dot(direction, hit.normal) < 0) != transmitted) return;
-    pending_.push_back({continued(branch.ray, hit, {direction, {}, 0, transmitted}), throughput, branch.depth + 1});
+// The reflected and the refracted ray; of a rough surface one that a facet reflects. A shading normal can send them to
+// the wrong side, where they are dropped.
+void ClassicIntegrator::branch_off(const Branch& branch, const SurfaceHit& hit, RandomStream& random) {
+  const CompiledMaterial& material = material_at(scene_, hit);
+  const auto add = [&](const SurfaceSample& s) {
+    const Spectrum throughput = branch.throughput * s.weight;
+    if (max_value(throughput) < negligible_transmittance || (dot(s.direction, hit.normal) < 0) != s.transmitted) return;
+    pending_.push_back({continued(branch.ray, hit, s), throughput, branch.depth + 1, s.pdf, hit.shading_normal});
   };
-  add(reflect(branch.ray.direction, hit.shading_normal), lobes.reflected, false);
-  add(lobes.refracted_direction, lobes.squeeze * lobes.refracted, true);
+  if (material.alpha > 0) return add(sample_facets(material, hit, branch.ray.direction, random));
+  const SmoothLobes lobes = smooth_lobes(material, hit, branch.ray.direction);
+  add({reflect(branch.ray.direction, hit.shading_normal), lobes.reflected, 0, false});
+  add({lobes.refracted_direction, lobes.squeeze * lobes.refracted, 0, true});
+}
+
+// The balance heuristic's share for the branch of light that it meets: shadow rays have found that light too where the
+// branch comes from a facet.
+float ClassicIntegrator::share(const Branch& branch, const CompiledLight& light, const SurfaceHit& hit) const {
+  if (branch.pdf == 0) return 1;
+  const float by_shadow_rays =
+      static_cast<float>(scene_.integrator.shadow_samples) * light_pdf(scene_, light, branch.ray, &branch.normal, hit);
+  return branch.pdf / (branch.pdf + by_shadow_rays);
 }
 
 // What the media along the ray add, and in `transmittance` what they leave of what lies behind them.
@@ -260,7 +275,8 @@ Spectrum ClassicIntegrator::in_scattering(const Ray& ray, RandomStream& random) 
   return result;
 }
 
-// What the surface sends back of the light that arrives directly.
+// What the surface sends back of the light that arrives directly. Of lights that have a size a rough surface's facets
+// reflect a part along the rays that branch off.
 Spectrum ClassicIntegrator::direct_light(const Ray& ray, const SurfaceHit& hit, RandomStream& random) {
   Spectrum result;
   if (!scatters_widely(material_at(scene_, hit))) return result;
@@ -268,11 +284,18 @@ Spectrum ClassicIntegrator::direct_light(const Ray& ray, const SurfaceHit& hit, 
   light_samples_.clear();
   shadow_rays_.clear();
   for (const CompiledLight& light : scene_.lights) {
-    const int count = has_extent(light) ? scene_.integrator.shadow_samples : 1;
-    const RandomStream::Pair numbers = has_extent(light) ? random.next_pair() : RandomStream::Pair{};
+    const bool extends = has_extent(light);
+    const int count = extends ? scene_.integrator.shadow_samples : 1;
+    const RandomStream::Pair numbers = extends ? random.next_pair() : RandomStream::Pair{};
     for (int i = 0; i < count; ++i) {
       LightSample s = sample_light(scene_, light, p, &hit.shading_normal, stratified(numbers, i, count));
-      s.value = (1 / static_cast<float>(count)) * s.value * eval_surface(scene_, hit, ray.direction, s.ray.direction);
+      const vec3 to_light = s.ray.direction;
+      float facet_pdf = 0;
+      const Spectrum facets = eval_facets(scene_, hit, ray.direction, to_light, facet_pdf);
+      const float light_pdf = static_cast<float>(count) * s.pdf,
+                  share = extends ? light_pdf / (light_pdf + facet_pdf) : 1;
+      const Spectrum reflected = eval_matt(scene_, hit, ray.direction, to_light) + (facet_pdf > 0 ? share : 0) * facets;
+      s.value = (1 / static_cast<float>(count)) * s.value * reflected;
       if (is_zero(s.value)) continue;
       light_samples_.push_back(s);
       shadow_rays_.push_back(started_at(start, s.ray));
@@ -283,9 +306,11 @@ Spectrum ClassicIntegrator::direct_light(const Ray& ray, const SurfaceHit& hit, 
   return result;
 }
 
-Spectrum ClassicIntegrator::background(vec3 direction) const {
+Spectrum ClassicIntegrator::background(const Branch& branch) const {
   Spectrum result;
-  for (const CompiledLight& light : scene_.lights) result = result + environment_radiance(scene_, light, direction);
+  for (const CompiledLight& light : scene_.lights)
+    if (const Spectrum radiance = environment_radiance(scene_, light, branch.ray.direction); !is_zero(radiance))
+      result = result + share(branch, light, {}) * radiance;
   return result;
 }
 

@@ -2,9 +2,10 @@
 // media with absorption, emission and single scattering, crossed by ray marching or by DDA. What a graphics course
 // teaches first, done with care.
 //
-// A ray that meets a mirror or glass goes on as one or two others, each with what is left of its weight, up to
-// max_depth; those that weigh next to nothing are dropped (adaptive depth control), and a camera ray has 4096 followers
-// at the most. Shadow rays pass through glass unrefracted, with Fresnel's share of the light.
+// A ray that meets a mirror or glass goes on as one or two others, from a rough surface in a direction drawn from its
+// facets, each with what is left of its weight, up to max_depth; those that weigh next to nothing are dropped (adaptive
+// depth control), and a camera ray has 4096 followers at the most. Shadow rays pass through glass unrefracted, with
+// Fresnel's share of the light.
 //
 // Along a ray with throughput 1,
 //   L = sum over steps of T(t_i) (1 - exp(-tau_i)) / tau_i (sigma_s_i Ls(t_i) + sigma_a_i Le) length_i
@@ -45,7 +46,9 @@ class ClassicIntegrator {
   struct Branch {
     Ray ray;
     Spectrum throughput;
-    int depth;  // how many reflections and refractions lie before it
+    int depth;                     // how many reflections and refractions lie before it
+    float pdf = 0;                 // of its direction, where it was drawn from facets
+    kernel::vec3 normal{0, 0, 0};  // where it comes from
   };
   // A medium at a sample point of a ray, and the point's share of the light that it scatters.
   struct Scattering {
@@ -61,7 +64,7 @@ class ClassicIntegrator {
   };
 
   Spectrum follow(const Branch& branch, RandomStream& random);
-  void branch_off(const Branch& branch, const SurfaceHit& hit);
+  void branch_off(const Branch& branch, const SurfaceHit& hit, RandomStream& random);
   Spectrum cross_media(const Ray& ray, bool scatters, RandomStream& random, Spectrum& transmittance);
   void find_cuts();
   float longest_step(float t_begin, float t_end);
@@ -72,7 +75,8 @@ class ClassicIntegrator {
   bool chosen(std::size_t first);
   Spectrum in_scattering(const Ray& ray, RandomStream& random);
   Spectrum direct_light(const Ray& ray, const SurfaceHit& hit, RandomStream& random);
-  Spectrum background(kernel::vec3 direction) const;
+  float share(const Branch& branch, const CompiledLight& light, const SurfaceHit& hit) const;
+  Spectrum background(const Branch& branch) const;
 
   const CompiledScene& scene_;
   const Intersector& intersector_;

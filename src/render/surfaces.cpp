@@ -84,18 +84,21 @@ Spectrum base_bsdf(const CompiledMaterial& m, vec3 n, vec3 to_light, vec3 to_vie
   return (let_through / (pi * m.refractive_index * m.refractive_index)) * base_reflectance(m);
 }
 
-// Without mirrors and glass.
-Spectrum bsdf(const CompiledMaterial& m, vec3 n, vec3 to_light, vec3 to_viewer) {
-  if (m.kind != CompiledMaterial::Kind::blinn_phong) {
-    Spectrum f;
-    if (m.kind == CompiledMaterial::Kind::coated_diffuse) f = base_bsdf(m, n, to_light, to_viewer);
-    return m.alpha > 0 ? f + facets_bsdf(m, n, to_light, to_viewer) : f;
-  }
+// Without mirrors, glass and facets.
+Spectrum matt_bsdf(const CompiledMaterial& m, vec3 n, vec3 to_light, vec3 to_viewer) {
+  if (m.kind == CompiledMaterial::Kind::conductor) return {};
+  if (m.kind == CompiledMaterial::Kind::coated_diffuse) return base_bsdf(m, n, to_light, to_viewer);
   const Spectrum diffuse = (1 / pi) * m.diffuse;
   if (is_zero(m.specular)) return diffuse;
   const float cosine = half_way(n, to_light, to_viewer).cosine;
   if (cosine == 0) return diffuse;
   return diffuse + m.highlight_scale * kernel::pow_positive(cosine, m.shininess) * highlight_colour(m);
+}
+
+// Without mirrors and glass.
+Spectrum bsdf(const CompiledMaterial& m, vec3 n, vec3 to_light, vec3 to_viewer) {
+  const Spectrum matt = matt_bsdf(m, n, to_light, to_viewer);
+  return m.alpha > 0 ? matt + facets_bsdf(m, n, to_light, to_viewer) : matt;
 }
 
 // The density of directions of the highlight: they are the mirror's about a normal h, drawn from the facets that are
@@ -114,6 +117,11 @@ float highlight_pdf(const CompiledMaterial& m, vec3 n, vec3 to_light, vec3 to_vi
 float bsdf_pdf(const CompiledMaterial& m, const Chances& chances, vec3 n, vec3 to_light, vec3 to_viewer) {
   const float pdf = chances.diffuse * clamped_cosine(n, to_light) / pi;
   return chances.highlight > 0 ? pdf + chances.highlight * highlight_pdf(m, n, to_light, to_viewer) : pdf;
+}
+
+// To the shading normal; 0 for directions that are not on its side and on the geometric normal's.
+float cosine_on_outside(const SurfaceHit& hit, vec3 direction) {
+  return dot(direction, hit.normal) > 0 ? clamped_cosine(hit.shading_normal, direction) : 0;
 }
 
 vec3 draw_direction(const CompiledMaterial& m, vec3 n, vec3 direction, bool highlight, RandomStream& random) {
@@ -170,22 +178,39 @@ SurfaceSample sample_surface(const CompiledScene& scene, const SurfaceHit& hit, 
   return s;
 }
 
-Spectrum eval_surface(const CompiledScene& scene, const SurfaceHit& hit, vec3 direction, vec3 to_light) {
+Spectrum eval_matt(const CompiledScene& scene, const SurfaceHit& hit, vec3 direction, vec3 to_light) {
+  const float cosine = cosine_on_outside(hit, to_light);
+  if (cosine == 0) return {};
+  return cosine * matt_bsdf(material_at(scene, hit), hit.shading_normal, to_light, -direction);
+}
+
+Spectrum eval_facets(const CompiledScene& scene, const SurfaceHit& hit, vec3 direction, vec3 to_light, float& pdf) {
   const CompiledMaterial& material = material_at(scene, hit);
-  const float cosine = dot(to_light, hit.shading_normal);
-  if (!scatters_widely(material) || cosine <= 0 || dot(to_light, hit.normal) <= 0) return {};
-  return cosine * bsdf(material, hit.shading_normal, to_light, -direction);
+  const float cosine = cosine_on_outside(hit, to_light);
+  pdf = 0;
+  if (material.alpha == 0 || cosine == 0) return {};
+  pdf = highlight_pdf(material, hit.shading_normal, to_light, -direction);
+  return cosine * facets_bsdf(material, hit.shading_normal, to_light, -direction);
+}
+
+SurfaceSample sample_facets(const CompiledMaterial& material, const SurfaceHit& hit, vec3 direction,
+                            RandomStream& random) {
+  const vec3 n = hit.shading_normal;
+  const vec3 to_light = draw_direction(material, n, direction, true, random);
+  const float cosine = dot(to_light, n), pdf = highlight_pdf(material, n, to_light, -direction);
+  if (!(cosine > 0 && pdf > 0)) return {to_light, {}, 0, false};
+  return {to_light, (cosine / pdf) * facets_bsdf(material, n, to_light, -direction), pdf, false};
 }
 
 Spectrum eval_surface(const CompiledScene& scene, const SurfaceHit& hit, vec3 direction, vec3 to_light, float& pdf) {
-  const Spectrum value = eval_surface(scene, hit, direction, to_light);
-  pdf = 0;
-  if (is_zero(value)) return {};
   const CompiledMaterial& material = material_at(scene, hit);
   const vec3 n = hit.shading_normal;
+  const float cosine = cosine_on_outside(hit, to_light);
+  pdf = 0;
+  if (!scatters_widely(material) || cosine == 0) return {};
   const Chances chances = chances_of(material, smooth_lobes(material, hit, direction), n, direction);
   pdf = bsdf_pdf(material, chances, n, to_light, -direction);
-  return value;
+  return cosine * bsdf(material, n, to_light, -direction);
 }
 
 bool scatters_widely(const CompiledMaterial& material) {

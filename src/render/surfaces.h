@@ -62,9 +62,16 @@ SurfaceSample sample_surface(const CompiledScene& scene, const SurfaceHit& hit, 
 
 // f cos for light from the direction `to_light` on the ray's side, mirrors left out; `pdf` is the density with which
 // sample_surface takes that direction.
-Spectrum eval_surface(const CompiledScene& scene, const SurfaceHit& hit, kernel::vec3 direction, kernel::vec3 to_light);
 Spectrum eval_surface(const CompiledScene& scene, const SurfaceHit& hit, kernel::vec3 direction, kernel::vec3 to_light,
                       float& pdf);
+
+// That in two parts: the facets of a rough surface (alpha above 0), with the density of directions that are drawn from
+// them, and the rest.
+Spectrum eval_matt(const CompiledScene& scene, const SurfaceHit& hit, kernel::vec3 direction, kernel::vec3 to_light);
+Spectrum eval_facets(const CompiledScene& scene, const SurfaceHit& hit, kernel::vec3 direction, kernel::vec3 to_light,
+                     float& pdf);
+SurfaceSample sample_facets(const CompiledMaterial& material, const SurfaceHit& hit, kernel::vec3 direction,
+                            RandomStream& random);
 
 // True where eval_surface is not 0 throughout, that is where light can be gathered by shadow rays.
 bool scatters_widely(const CompiledMaterial& material);
