@@ -23,7 +23,7 @@ class Compiler {
   void add_lights();
   void add_sphere_light(const SphereLight& light);
   void add_ambient_light(const AmbientLight& light, const Location& location);
-  void add_infinite_light(const LightDescription& light);
+  void add_infinite_light(const LightDescription& description);
   bool read_environment(const std::string& filename, const Location& location, CompiledEnvironment& environment);
   // The index of the shape's light, whose geometry is there already.
   std::int32_t add_area_light(const AreaLight& light, const CompiledShape& shape);
