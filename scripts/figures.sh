@@ -12,3 +12,8 @@ brume=build/release/bin/brume
 "$brume" scenes/lamp_in_fog.pbrt --resolution 480x300 --spp 256 -o docs/images/lamp_in_fog.png
 "$brume" scenes/two_clouds.pbrt --resolution 480x300 --spp 128 -o docs/images/two_clouds.png
 "$brume" scenes/smoke_by_a_lamp.pbrt --spp 512 -o docs/images/smoke_by_a_lamp.png
+volumes=$(mktemp -d)
+trap 'rm -rf "$volumes"' EXIT
+cp scenes/founding.pbrt "$volumes"
+"$brume" make smoke --size 500 -o "$volumes/smoke500.vdb"
+"$brume" "$volumes/founding.pbrt" -o docs/images/founding.png

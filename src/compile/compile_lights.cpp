@@ -124,12 +124,39 @@ void Compiler::add_lights() {
       c.kind = CompiledLight::Kind::distant;
       c.direction_to = distant->direction_to_light;
       c.value = distant->radiance;
+    } else if (const auto* sphere = std::get_if<SphereLight>(&light.kind)) {
+      add_sphere_light(*sphere);
+      continue;
+    } else if (const auto* ambient = std::get_if<AmbientLight>(&light.kind)) {
+      add_ambient_light(*ambient, light.location);
+      continue;
     } else {
       add_infinite_light(light);
       continue;
     }
     compiled_.lights.push_back(c);
   }
+}
+
+// A ball of radiance L has the intensity L pi radius^2 in every direction.
+void Compiler::add_sphere_light(const SphereLight& light) {
+  ShapeDescription ball;
+  ball.world_from_object = translate(light.from);
+  ball.material = DiffuseMaterial{{}};
+  ball.kind = SphereShape{light.radius};
+  ball.light = AreaLight{static_cast<float>(1 / (pi * light.radius * light.radius)) * light.intensity, false, 0};
+  add_shape(ball);
+}
+
+void Compiler::add_ambient_light(const AmbientLight& light, const Location& location) {
+  compiled_.ambient = compiled_.ambient + light.radiance;
+  if (compiled_.integrator.kind == CompiledIntegrator::Kind::classic || warned_of_ambient_light_) return;
+  warned_of_ambient_light_ = true;
+  warnings_.push_back({Severity::warning,
+                       location,
+                       "LightSource \"ambient\" shines for Integrator \"classic\" only; LightSource \"infinite\" is "
+                       "such light with its shadows",
+                       {}});
 }
 
 void Compiler::add_infinite_light(const LightDescription& description) {

@@ -1,7 +1,11 @@
 #include <algorithm>
 #include <numbers>
+#include <tuple>
 
+#include "base/fresnel.h"
+#include "base/microfacet.h"
 #include "compile/compiler.h"
+#include "compiled/coat.h"
 
 namespace brume {
 
@@ -11,29 +15,81 @@ std::array<float, 3> to_float(Vector3 v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-// Fresnel's equations at normal incidence.
-float normal_reflectance(float eta, float k) {
-  return ((eta - 1) * (eta - 1) + k * k) / ((eta + 1) * (eta + 1) + k * k);
+// Keeps a Blinn-Phong highlight from making light: at normal incidence, where it is brightest, it sends back what it
+// gets. Source: F. Giesen, "Phong Normalization Factor derivations", 2009: with c = (s + 2) (s + 4) / (8 pi (2^(-s/2) +
+// s)), the integral of c (n.h)^s cos over the hemisphere is 1.
+float highlight_scale(double s) {
+  return static_cast<float>((s + 2) * (s + 4) / (8 * std::numbers::pi * (std::exp2(-s / 2) + s)));
+}
+
+// Of the light that meets a rough coat at a cosine, how much it lets in: what its facets do not reflect, each one as
+// Fresnel has it; light that would hit a second facet is let in. By quadrature over the facets that are seen.
+float rough_transmittance(float cosine, float eta, float alpha) {
+  constexpr int steps = 48;
+  const kernel::vec3 n(0, 0, 1), v(std::sqrt(1 - cosine * cosine), 0, cosine);
+  double reflected = 0;
+  for (int i = 0; i < steps; ++i)
+    for (int j = 0; j < steps; ++j) {
+      const auto middle = [](int k) { return (static_cast<float>(k) + 0.5f) / steps; };
+      const kernel::vec3 h = draw_facet(n, v, alpha, middle(i), middle(j));
+      const float along = dot(h, v), out = 2 * along * h.z - v.z;
+      if (out <= 0) continue;
+      float refracted_cosine = 0;
+      const float hidden = hidden_facets(cosine, alpha);
+      reflected += static_cast<double>(fresnel_dielectric(along, eta, refracted_cosine) * (1 + hidden) /
+                                       (1 + hidden + hidden_facets(out, alpha)));
+    }
+  return static_cast<float>(1 - reflected / (steps * steps));
+}
+
+// Of diffuse light that meets the coat from within. By reciprocity it is 1 - T / eta^2, with T, how much is let in of
+// diffuse light from without, the integral of 2 mu times that at the cosine mu.
+float internal_reflectance(const CompiledMaterial& m) {
+  constexpr int steps = 4096;
+  double let_in = 0;
+  for (int i = 0; i < steps; ++i) {
+    const float mu = (static_cast<float>(i) + 0.5f) / steps;
+    let_in += 2 * static_cast<double>(mu * coat_transmittance(m, mu)) / steps;
+  }
+  const auto eta = static_cast<double>(m.refractive_index);
+  return static_cast<float>(1 - let_in / (eta * eta));
 }
 
 CompiledMaterial compile_material(const MaterialDescription& material) {
   CompiledMaterial c;
   if (const auto* diffuse = std::get_if<DiffuseMaterial>(&material)) {
-    c.diffuse = diffuse->reflectance;
+    c.diffuse = c.ambient = diffuse->reflectance;
   } else if (const auto* phong = std::get_if<BlinnPhongMaterial>(&material)) {
     c.diffuse = phong->diffuse;
     c.specular = phong->specular;
     c.mirror = phong->reflection;
+    c.refraction = phong->refraction;
+    c.ambient = phong->ambient;
     c.shininess = phong->shininess;
+    c.metallic = phong->metallic;
+    c.highlight_scale = highlight_scale(static_cast<double>(phong->shininess));
+    c.refractive_index = phong->index;
   } else if (const auto* conductor = std::get_if<ConductorMaterial>(&material)) {
     c.kind = CompiledMaterial::Kind::conductor;
     c.eta = conductor->eta;
     c.k = conductor->k;
-    for (int i = 0; i < channel_count; ++i) c.mirror[i] = normal_reflectance(c.eta[i], c.k[i]);
+    c.alpha = conductor->alpha;
+    if (c.alpha > 0)
+      for (int i = 0; i < channel_count; ++i) c.ambient[i] = fresnel_conductor(1, c.eta[i], c.k[i]);
   } else if (const auto* dielectric = std::get_if<DielectricMaterial>(&material)) {
-    c.kind = CompiledMaterial::Kind::dielectric;
+    c.refraction = constant_spectrum(1);
     c.refractive_index = dielectric->eta;
-    c.mirror = constant_spectrum(normal_reflectance(dielectric->eta, 0));
+  } else if (const auto* coated = std::get_if<CoatedDiffuseMaterial>(&material)) {
+    c.kind = CompiledMaterial::Kind::coated_diffuse;
+    c.diffuse = c.ambient = coated->reflectance;
+    c.refractive_index = coated->eta;
+    c.alpha = coated->alpha;
+    constexpr auto intervals = static_cast<float>(std::tuple_size_v<decltype(c.coat_transmittance)> - 1);
+    if (c.alpha > 0)
+      for (std::size_t i = 0; i < c.coat_transmittance.size(); ++i)
+        c.coat_transmittance[i] =
+            rough_transmittance(std::max(1e-3f, static_cast<float>(i) / intervals), c.refractive_index, c.alpha);
+    c.internal_reflectance = internal_reflectance(c);
   }
   return c;
 }
@@ -89,6 +145,26 @@ void Compiler::add_shape(const ShapeDescription& shape) {
   add_geometry(shape, compiled);
   if (shape.light && compiled.material >= 0) compiled.light = add_area_light(*shape.light, compiled);
   compiled_.shapes.push_back(compiled);
+  if (const auto* phong = std::get_if<BlinnPhongMaterial>(&shape.material);
+      phong && !is_zero(phong->refraction) && !is_zero(phong->absorption))
+    add_absorption(compiled, phong->absorption);
+}
+
+void Compiler::add_absorption(CompiledShape shape, const Spectrum& sigma_a) {
+  auto found = std::find_if(absorbers_.begin(), absorbers_.end(), [&](std::int32_t medium) {
+    return compiled_.media[static_cast<std::size_t>(medium)].sigma_t == sigma_a;
+  });
+  if (found == absorbers_.end()) {
+    CompiledMedium medium;
+    medium.sigma_t = sigma_a;
+    medium.phase = phase_kind("isotropic");
+    found = absorbers_.insert(absorbers_.end(), static_cast<std::int32_t>(compiled_.media.size()));
+    compiled_.media.push_back(medium);
+  }
+  shape.material = shape.light = -1;
+  shape.boundary = static_cast<std::int32_t>(compiled_.boundaries.size());
+  compiled_.boundaries.push_back({*found, no_medium});
+  compiled_.shapes.push_back(shape);
 }
 
 void Compiler::add_geometry(const ShapeDescription& shape, CompiledShape& compiled) {

@@ -21,7 +21,9 @@ class Compiler {
   void add_camera();
   void add_integrator();
   void add_lights();
-  void add_infinite_light(const LightDescription& light);
+  void add_sphere_light(const SphereLight& light);
+  void add_ambient_light(const AmbientLight& light, const Location& location);
+  void add_infinite_light(const LightDescription& description);
   bool read_environment(const std::string& filename, const Location& location, CompiledEnvironment& environment);
   // The index of the shape's light, whose geometry is there already.
   std::int32_t add_area_light(const AreaLight& light, const CompiledShape& shape);
@@ -46,6 +48,8 @@ class Compiler {
                          const std::vector<std::array<std::uint32_t, 3>>& triangles,
                          const std::vector<Vector3>& normals);
   std::int32_t material_index(const MaterialDescription& material);
+  // A medium that fills the inside of the shape beside what is there, and does nothing but absorb.
+  void add_absorption(CompiledShape shape, const Spectrum& sigma_a);
 
   void error(const Location& location, const std::string& message);
 
@@ -54,7 +58,9 @@ class Compiler {
   CompiledScene compiled_;
   std::vector<Diagnostic> errors_, warnings_;
   std::map<std::string, std::int32_t> media_;  // by name
-  std::vector<double> mean_brightness_;        // of the environments
+  std::vector<std::int32_t> absorbers_;        // media of bodies that absorb
+  bool warned_of_ambient_light_ = false;
+  std::vector<double> mean_brightness_;  // of the environments
   struct LightArea {
     std::size_t light;
     double area;  // in the world

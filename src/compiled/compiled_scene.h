@@ -70,15 +70,22 @@ struct CompiledVolume {
   std::int32_t hole = -1;  // in `holes`; below 0: none
 };
 
-// A surface. blinn_phong: f = diffuse / pi + specular (s + 8) / (8 pi) (n.h)^s, and a mirror. conductor and dielectric
-// are smooth and reflect by Fresnel's equations; their `mirror` is the reflectance at normal incidence, for integrators
-// that know no better.
+// A surface. blinn_phong: the sum of f = diffuse / pi + highlight c (n.h)^shininess, of a mirror, and of glass that the
+// share `refraction` of the light meets (1 for a dielectric), which it reflects and refracts by Fresnel's equations;
+// highlight = specular lerp(1, diffuse, metallic). conductor: a metal. coated_diffuse: glass above a diffuse
+// base.
 struct CompiledMaterial {
-  enum class Kind { blinn_phong, conductor, dielectric } kind = Kind::blinn_phong;
-  Spectrum diffuse, specular, mirror;
-  float shininess = 1;
-  Spectrum eta, k;             // conductor: complex index of refraction
-  float refractive_index = 1;  // dielectric: inside over outside
+  enum class Kind { blinn_phong, conductor, coated_diffuse } kind = Kind::blinn_phong;
+  Spectrum diffuse, specular, mirror, refraction;
+  Spectrum ambient;  // colour under the scene's ambient light
+  float shininess = 1, metallic = 0;
+  float highlight_scale = 0;       // c
+  Spectrum eta, k;                 // conductor: complex index of refraction
+  float refractive_index = 1;      // of glass: inside over outside
+  float alpha = 0;                 // conductor, coated_diffuse: see base/microfacet.h; 0: smooth
+  float internal_reflectance = 0;  // coated_diffuse: of the coat, for diffuse light from its inside
+  // coated_diffuse with alpha above 0: how much light the coat lets in, by its cosine: 0, 1 / 32, 2 / 32, ..., 1.
+  std::array<float, 33> coat_transmittance{};
   bool operator==(const CompiledMaterial&) const = default;
 };
 
@@ -170,6 +177,7 @@ struct CompiledIntegrator {
   bool dda = false;
   float placement_base = 0.5f, placement_spread = 0;  // see kernel/march.inl
   double step = 0;                                    // world units; 0: each medium's default
+  int shadow_samples = 1;                             // shadow rays from a surface to a light with a size
 };
 
 struct CompiledScene {
@@ -197,6 +205,7 @@ struct CompiledScene {
   std::vector<CompiledBoundary> boundaries;
   std::vector<CompiledMaterial> materials;
   std::vector<CompiledLight> lights;
+  Spectrum ambient;                  // radiance from everywhere, for `classic`
   float mean_radiance = 0;           // in the scene, about: that of light which crosses it without being absorbed
   std::vector<float> light_cdf;      // cumulative chances of lights, without the leading 0
   std::vector<float> triangle_cdfs;  // cumulative shares of area of the triangles of mesh lights, likewise

@@ -29,10 +29,10 @@ Cone cone_to_sphere(Vector3 from) {
 
 // Directions d of object space and w = M d / |M d| of the world, M the affine map's 3 x 3 part: a solid angle grows by
 // |det M| / |M d|^3.
-LightPoint sample_sphere(const CompiledQuadric& sphere, vec3 p, RandomStream& random) {
+LightPoint sample_sphere(const CompiledQuadric& sphere, vec3 p, RandomStream::Pair numbers) {
   const Vector3 from = sphere.object_from_world.point(to_double(p));
   const Cone cone = cone_to_sphere(from);
-  const auto [u, turns] = random.next_pair();
+  const auto [u, turns] = numbers;
   const double z = 1 - static_cast<double>(u) * cone.size;
   const Vector3 d =
       normalize(to_double(kernel::direction_at_cosine(to_float(cone.axis), static_cast<float>(z), turns)));
@@ -59,8 +59,8 @@ double area_growth(const CompiledQuadric& quadric, vec3 n) {
 }
 
 // A point and its density per unit of area.
-LightPoint sample_disk_or_cylinder(const CompiledQuadric& quadric, float area, RandomStream& random) {
-  const auto [u, v] = random.next_pair();
+LightPoint sample_disk_or_cylinder(const CompiledQuadric& quadric, float area, RandomStream::Pair numbers) {
+  const auto [u, v] = numbers;
   const double phi = static_cast<double>(v) * quadric.phi_max, cosine = std::cos(phi), sine = std::sin(phi);
   Vector3 q{cosine, sine, static_cast<double>(u)}, n{cosine, sine, 0};
   if (quadric.kind == CompiledQuadric::Kind::disk) {
@@ -78,20 +78,23 @@ vec3 vertex(const std::vector<std::array<float, 3>>& from, std::uint32_t index) 
   return {from[index][0], from[index][1], from[index][2]};
 }
 
-// Likewise; the normal is that of a hit there (see Intersector).
-LightPoint sample_mesh(const CompiledScene& scene, const CompiledLight& light, RandomStream& random) {
+// Likewise; the normal is that of a hit there (see Intersector). The first number draws the triangle, and what is left
+// of it a place there.
+LightPoint sample_mesh(const CompiledScene& scene, const CompiledLight& light, RandomStream::Pair numbers) {
   const CompiledMesh& mesh = scene.meshes[light.shape_index];
+  auto [u, v] = numbers;
   std::uint32_t triangle = 0;
   if (mesh.triangle_count > 1) {
     const float* cdf = scene.triangle_cdfs.data() + light.first_triangle_cdf;
-    triangle = static_cast<std::uint32_t>(std::upper_bound(cdf, cdf + mesh.triangle_count - 1, random.next()) - cdf);
+    triangle = static_cast<std::uint32_t>(std::upper_bound(cdf, cdf + mesh.triangle_count - 1, u) - cdf);
+    const float begin = triangle == 0 ? 0 : cdf[triangle - 1];
+    u = std::clamp((u - begin) / (cdf[triangle] - begin), 0.0f, 1.0f);
   }
   const auto& corners = scene.triangles[mesh.first_triangle + triangle];
   const auto at = [&](const auto& from, std::size_t corner) {
     return vertex(from, mesh.first_vertex + corners[corner]);
   };
   const vec3 p0 = at(scene.positions, 0), e1 = at(scene.positions, 1) - p0, e2 = at(scene.positions, 2) - p0;
-  const auto [u, v] = random.next_pair();
   const float root = std::sqrt(u), b1 = root * (1 - v), b2 = root * v;
   vec3 n = normalize(cross(e1, e2));
   if (mesh.flip_normal) n = -n;
@@ -108,10 +111,11 @@ const CompiledQuadric* quadric_of(const CompiledScene& scene, const CompiledLigh
 
 }  // namespace
 
-LightPoint sample_area_light(const CompiledScene& scene, const CompiledLight& light, vec3 p, RandomStream& random) {
+LightPoint sample_area_light(const CompiledScene& scene, const CompiledLight& light, vec3 p,
+                             RandomStream::Pair numbers) {
   const CompiledQuadric* quadric = quadric_of(scene, light);
-  if (quadric && quadric->kind == CompiledQuadric::Kind::sphere) return sample_sphere(*quadric, p, random);
-  LightPoint q = quadric ? sample_disk_or_cylinder(*quadric, light.area, random) : sample_mesh(scene, light, random);
+  if (quadric && quadric->kind == CompiledQuadric::Kind::sphere) return sample_sphere(*quadric, p, numbers);
+  LightPoint q = quadric ? sample_disk_or_cylinder(*quadric, light.area, numbers) : sample_mesh(scene, light, numbers);
   const vec3 to_light = q.position - p;
   const float squared = dot(to_light, to_light), cosine = std::abs(dot(q.normal, to_light));  // times the distance
   q.pdf = cosine > 0 ? q.pdf * squared * std::sqrt(squared) / cosine : 0;

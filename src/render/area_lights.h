@@ -16,7 +16,7 @@ struct LightPoint {
 // From p. Spheres: uniform over the cone of directions in which they are seen (of the unit sphere, before the affine
 // map). Others: uniform over the area (before the affine map).
 LightPoint sample_area_light(const CompiledScene& scene, const CompiledLight& light, kernel::vec3 p,
-                             RandomStream& random);
+                             RandomStream::Pair numbers);
 
 // The density of a direction from the ray's origin whose ray meets the light at `hit`.
 float area_light_pdf(const CompiledScene& scene, const CompiledLight& light, const Ray& ray, const SurfaceHit& hit);

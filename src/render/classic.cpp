@@ -16,8 +16,19 @@ namespace {
 constexpr float negligible_transmittance = 1e-4f;
 // Steps whose densities are looked up together.
 constexpr int batch_size = 64;
+constexpr int most_followers = 4096;  // of a camera ray
 // With random placements, the share of scattered light that one shadow ray stands for.
 constexpr float faint_share = 1.0f / 32;
+
+// Pair i of n that together are spread evenly over the square, each by itself as random as `numbers`: Hammersley's
+// points, moved by `numbers` around the edges. Source: R. Cranley and T. Patterson, "Randomization of number theoretic
+// methods for multiple integration", SIAM J. Numer. Anal. 13(6), 1976.
+RandomStream::Pair stratified(RandomStream::Pair numbers, int i, int n) {
+  const auto moved = [](float x, float by) { return x + by < 1 ? x + by : x + by - 1; };
+  const auto index = static_cast<std::uint32_t>(i);
+  return {moved(numbers.u, static_cast<float>(i) / static_cast<float>(n)),
+          moved(numbers.v, kernel::uniform_from_bits(kernel::reverse_bits(index)))};
+}
 
 }  // namespace
 
@@ -26,29 +37,61 @@ ClassicIntegrator::ClassicIntegrator(const CompiledScene& scene, const Intersect
     : scene_(scene), intersector_(intersector), media_(media), visibility_(scene, intersector, media) {}
 
 Spectrum ClassicIntegrator::radiance(Ray ray, RandomStream& random) {
-  Spectrum result, throughput = constant_spectrum(1);
-  for (int scatterings = 0;; ++scatterings) {
-    SurfaceHit hit;
-    const bool is_hit = intersector_.nearest_surface(ray, hit);
-    if (is_hit) ray.t_max = hit.t;
-    const bool scatters = scatterings < scene_.integrator.max_depth;
-    Spectrum transmittance = constant_spectrum(1);
-    result = result + throughput * cross_media(ray, scatters, random, transmittance);
-    throughput = throughput * transmittance;
-    if (!is_hit) return result + throughput * background(ray.direction);
-    result = result + throughput * emitted_radiance(scene_, hit, ray.direction);
-    if (!scatters || is_zero(throughput)) return result;
-
-    hit = facing(hit, ray.direction);
-    result = result + throughput * direct_light(ray, hit, random);
-
-    const auto shape = static_cast<std::size_t>(hit.shape);
-    throughput = throughput * scene_.materials[static_cast<std::size_t>(scene_.shapes[shape].material)].mirror;
-    if (is_zero(throughput)) return result;
-    const vec3 reflected = reflect(ray.direction, hit.shading_normal);
-    if (dot(reflected, hit.normal) <= 0) return result;
-    ray = {leave_surface(ray.at(hit.t), hit.normal, hit.t), reflected, far_away};
+  Spectrum result;
+  pending_.assign(1, {ray, constant_spectrum(1), 0});
+  for (int followed = 0; !pending_.empty() && followed <= most_followers; ++followed) {
+    const Branch branch = pending_.back();
+    pending_.pop_back();
+    result = result + follow(branch, random);
   }
+  return result;
+}
+
+// What one ray adds; the rays that go on from its end become pending.
+Spectrum ClassicIntegrator::follow(const Branch& branch, RandomStream& random) {
+  Branch at_end = branch;
+  Ray& ray = at_end.ray;
+  SurfaceHit hit;
+  const bool is_hit = intersector_.nearest_surface(ray, hit);
+  if (is_hit) ray.t_max = hit.t;
+  const bool scatters = branch.depth < scene_.integrator.max_depth;
+  Spectrum transmittance = constant_spectrum(1);
+  Spectrum result = branch.throughput * cross_media(ray, scatters, random, transmittance);
+  at_end.throughput = branch.throughput * transmittance;
+  if (!is_hit) return result + at_end.throughput * background(at_end);
+  const std::int32_t light = scene_.shapes[static_cast<std::size_t>(hit.shape)].light;
+  if (light >= 0)
+    result = result + share(at_end, scene_.lights[static_cast<std::size_t>(light)], hit) * at_end.throughput *
+                          emitted_radiance(scene_, hit, ray.direction);
+  if (!scatters || is_zero(at_end.throughput)) return result;
+  hit = facing(hit, ray.direction);
+  branch_off(at_end, hit, random);
+  return result +
+         at_end.throughput * (material_at(scene_, hit).ambient * scene_.ambient + direct_light(ray, hit, random));
+}
+
+// The reflected and the refracted ray; of a rough surface one that a facet reflects. A shading normal can send them to
+// the wrong side, where they are dropped.
+void ClassicIntegrator::branch_off(const Branch& branch, const SurfaceHit& hit, RandomStream& random) {
+  const CompiledMaterial& material = material_at(scene_, hit);
+  const auto add = [&](const SurfaceSample& s) {
+    const Spectrum throughput = branch.throughput * s.weight;
+    if (max_value(throughput) < negligible_transmittance || (dot(s.direction, hit.normal) < 0) != s.transmitted) return;
+    pending_.push_back({continued(branch.ray, hit, s), throughput, branch.depth + 1, s.pdf, hit.shading_normal});
+  };
+  if (material.alpha > 0) return add(sample_facets(material, hit, branch.ray.direction, random));
+  const SmoothLobes lobes = smooth_lobes(material, hit, branch.ray.direction);
+  add({reflect(branch.ray.direction, hit.shading_normal), lobes.reflected, 0, false});
+  add({lobes.refracted_direction, lobes.squeeze * lobes.refracted, 0, true});
+}
+
+// The balance heuristic's share for the branch of light that it meets: shadow rays have found that light too where the
+// branch comes from a facet.
+float ClassicIntegrator::share(const Branch& branch, const CompiledLight& light, const SurfaceHit& hit) const {
+  if (branch.pdf == 0) return 1;
+  const float by_shadow_rays =
+      static_cast<float>(scene_.integrator.shadow_samples) * light_pdf(scene_, light, branch.ray, &branch.normal, hit);
+  return branch.pdf / (branch.pdf + by_shadow_rays);
 }
 
 // What the media along the ray add, and in `transmittance` what they leave of what lies behind them.
@@ -210,6 +253,7 @@ bool ClassicIntegrator::chosen(std::size_t first) {
 Spectrum ClassicIntegrator::in_scattering(const Ray& ray, RandomStream& random) {
   Spectrum result;
   if (points_.empty()) return result;
+  for (const Scattering& s : scatterings_) result = result + scene_.ambient * s.weight;
   for (const CompiledLight& light : scene_.lights) {
     light_samples_.clear();
     shadow_rays_.clear();
@@ -231,32 +275,42 @@ Spectrum ClassicIntegrator::in_scattering(const Ray& ray, RandomStream& random) 
   return result;
 }
 
+// What the surface sends back of the light that arrives directly. Of lights that have a size a rough surface's facets
+// reflect a part along the rays that branch off.
 Spectrum ClassicIntegrator::direct_light(const Ray& ray, const SurfaceHit& hit, RandomStream& random) {
-  const auto shape = static_cast<std::size_t>(hit.shape);
-  const CompiledMaterial& material = scene_.materials[static_cast<std::size_t>(scene_.shapes[shape].material)];
   Spectrum result;
-  if (is_zero(material.diffuse) && is_zero(material.specular)) return result;
+  if (!scatters_widely(material_at(scene_, hit))) return result;
   const vec3 p = ray.at(hit.t), start = leave_surface(p, hit.normal, hit.t);
   light_samples_.clear();
   shadow_rays_.clear();
   for (const CompiledLight& light : scene_.lights) {
-    const LightSample s = sample_light(scene_, light, p, &hit.shading_normal, random);
-    if (dot(s.ray.direction, hit.normal) <= 0 || dot(s.ray.direction, hit.shading_normal) <= 0) continue;
-    light_samples_.push_back(s);
-    shadow_rays_.push_back(started_at(start, s.ray));
+    const bool extends = has_extent(light);
+    const int count = extends ? scene_.integrator.shadow_samples : 1;
+    const RandomStream::Pair numbers = extends ? random.next_pair() : RandomStream::Pair{};
+    for (int i = 0; i < count; ++i) {
+      LightSample s = sample_light(scene_, light, p, &hit.shading_normal, stratified(numbers, i, count));
+      const vec3 to_light = s.ray.direction;
+      float facet_pdf = 0;
+      const Spectrum facets = eval_facets(scene_, hit, ray.direction, to_light, facet_pdf);
+      const float light_pdf = static_cast<float>(count) * s.pdf,
+                  share = extends ? light_pdf / (light_pdf + facet_pdf) : 1;
+      const Spectrum reflected = eval_matt(scene_, hit, ray.direction, to_light) + (facet_pdf > 0 ? share : 0) * facets;
+      s.value = (1 / static_cast<float>(count)) * s.value * reflected;
+      if (is_zero(s.value)) continue;
+      light_samples_.push_back(s);
+      shadow_rays_.push_back(started_at(start, s.ray));
+    }
   }
   visibility_.find(shadow_rays_, random, arriving_);
-  for (std::size_t i = 0; i < shadow_rays_.size(); ++i) {
-    const vec3 to_light = light_samples_[i].ray.direction;
-    const Spectrum f = blinn_phong(material, hit.shading_normal, to_light, -ray.direction);
-    result = result + dot(to_light, hit.shading_normal) * f * light_samples_[i].value * arriving_[i];
-  }
+  for (std::size_t i = 0; i < shadow_rays_.size(); ++i) result = result + light_samples_[i].value * arriving_[i];
   return result;
 }
 
-Spectrum ClassicIntegrator::background(vec3 direction) const {
+Spectrum ClassicIntegrator::background(const Branch& branch) const {
   Spectrum result;
-  for (const CompiledLight& light : scene_.lights) result = result + environment_radiance(scene_, light, direction);
+  for (const CompiledLight& light : scene_.lights)
+    if (const Spectrum radiance = environment_radiance(scene_, light, branch.ray.direction); !is_zero(radiance))
+      result = result + share(branch, light, {}) * radiance;
   return result;
 }
 

@@ -1,6 +1,11 @@
-// Integrator "classic": camera rays with Blinn-Phong surfaces, mirrors, hard shadows, and media with absorption,
-// emission and single scattering, crossed by ray marching or by DDA. What a graphics course teaches first, done with
-// care.
+// Integrator "classic": camera rays with surfaces that are lit directly, reflected and refracted rays, shadows, and
+// media with absorption, emission and single scattering, crossed by ray marching or by DDA. What a graphics course
+// teaches first, done with care.
+//
+// A ray that meets a mirror or glass goes on as one or two others, from a rough surface in a direction drawn from its
+// facets, each with what is left of its weight, up to max_depth; those that weigh next to nothing are dropped (adaptive
+// depth control), and a camera ray has 4096 followers at the most. Shadow rays pass through glass unrefracted, with
+// Fresnel's share of the light.
 //
 // Along a ray with throughput 1,
 //   L = sum over steps of T(t_i) (1 - exp(-tau_i)) / tau_i (sigma_s_i Ls(t_i) + sigma_a_i Le) length_i
@@ -12,7 +17,8 @@
 // With random placements, steps that scatter little share shadow rays: one is chosen for every 1/32 of the light that
 // the ray scatters, by systematic sampling, which costs no bias and, over a picture's samples, next to no noise.
 // Source: N. Max, "Optical Models for Direct Volume Rendering", TVCG 1(2), 1995, section 5; T. Whitted, "An Improved
-// Illumination Model for Shaded Display", CACM 23(6), 1980.
+// Illumination Model for Shaded Display", CACM 23(6), 1980; R. Hall and D. Greenberg, "A Testbed for Realistic Image
+// Synthesis", IEEE CG&A 3(8), 1983 (adaptive depth control).
 #pragma once
 
 #include <vector>
@@ -36,6 +42,14 @@ class ClassicIntegrator {
   }
 
  private:
+  // A ray of the tree that a camera ray begins, and what radiance along it is worth.
+  struct Branch {
+    Ray ray;
+    Spectrum throughput;
+    int depth;                     // how many reflections and refractions lie before it
+    float pdf = 0;                 // of its direction, where it was drawn from facets
+    kernel::vec3 normal{0, 0, 0};  // where it comes from
+  };
   // A medium at a sample point of a ray, and the point's share of the light that it scatters.
   struct Scattering {
     int medium;
@@ -49,6 +63,8 @@ class ClassicIntegrator {
     std::size_t first, last;  // in scatterings_
   };
 
+  Spectrum follow(const Branch& branch, RandomStream& random);
+  void branch_off(const Branch& branch, const SurfaceHit& hit, RandomStream& random);
   Spectrum cross_media(const Ray& ray, bool scatters, RandomStream& random, Spectrum& transmittance);
   void find_cuts();
   float longest_step(float t_begin, float t_end);
@@ -59,7 +75,8 @@ class ClassicIntegrator {
   bool chosen(std::size_t first);
   Spectrum in_scattering(const Ray& ray, RandomStream& random);
   Spectrum direct_light(const Ray& ray, const SurfaceHit& hit, RandomStream& random);
-  Spectrum background(kernel::vec3 direction) const;
+  float share(const Branch& branch, const CompiledLight& light, const SurfaceHit& hit) const;
+  Spectrum background(const Branch& branch) const;
 
   const CompiledScene& scene_;
   const Intersector& intersector_;
@@ -67,6 +84,7 @@ class ClassicIntegrator {
   Visibility visibility_;
   std::optional<kernel::vec3> too_many_media_;
 
+  std::vector<Branch> pending_;
   std::vector<MediumSpan> spans_, active_;  // of the current ray; those that cover the current step
   std::vector<Crossing> crossings_;
   std::vector<float> cuts_;

@@ -28,8 +28,8 @@ LightSample sample_point(const CompiledLight& light, vec3 p) {
   return {{p, direction, distance}, (falloff / squared) * light.value, 0};
 }
 
-LightSample sample_constant(const CompiledLight& light, vec3 p, const vec3* normal, RandomStream& random) {
-  const auto [u, turns] = random.next_pair();
+LightSample sample_constant(const CompiledLight& light, vec3 p, const vec3* normal, RandomStream::Pair numbers) {
+  const auto [u, turns] = numbers;
   if (!normal) {
     const vec3 direction = kernel::direction_at_cosine({0, 0, 1}, 1 - 2 * u, turns);
     return {{p, direction, far_away}, 4 * pi * light.value, 0.25f / pi};
@@ -78,9 +78,9 @@ void find_pixel(const CompiledEnvironment& e, vec3 direction, std::uint32_t& col
   row = std::min(static_cast<std::uint32_t>(p.v * e.height), e.height - 1);
 }
 
-LightSample sample_image(const CompiledScene& scene, const CompiledLight& light, vec3 p, RandomStream& random) {
+LightSample sample_image(const CompiledScene& scene, const CompiledLight& light, vec3 p, RandomStream::Pair numbers) {
   const CompiledEnvironment& e = scene.environments[static_cast<std::size_t>(light.environment)];
-  auto [right, down] = random.next_pair();
+  auto [right, down] = numbers;
   const std::uint32_t row = draw(e.row_cdf.data(), e.height, down);
   const std::uint32_t column = draw(e.pixel_cdf.data() + static_cast<std::size_t>(row) * (e.width + 1), e.width, right);
   const Vector3 d = direction_in_pixel(e, column, row, static_cast<double>(right), static_cast<double>(down));
@@ -91,8 +91,8 @@ LightSample sample_image(const CompiledScene& scene, const CompiledLight& light,
           pdf};
 }
 
-LightSample sample_area(const CompiledScene& scene, const CompiledLight& light, vec3 p, RandomStream& random) {
-  const LightPoint q = sample_area_light(scene, light, p, random);
+LightSample sample_area(const CompiledScene& scene, const CompiledLight& light, vec3 p, RandomStream::Pair numbers) {
+  const LightPoint q = sample_area_light(scene, light, p, numbers);
   // The shadow ray is to end short of the light's surface, also where it starts a little off another one.
   const vec3 towards = q.position - p, n = dot(q.normal, towards) < 0 ? q.normal : -q.normal;
   const float reach = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), length(towards)});
@@ -114,8 +114,17 @@ LightChoice choose_light(const CompiledScene& scene, float u) {
   return {static_cast<int>(i), scene.lights[i].chance};
 }
 
+bool has_extent(const CompiledLight& light) {
+  return light.kind != CompiledLight::Kind::point && light.kind != CompiledLight::Kind::distant;
+}
+
 LightSample sample_light(const CompiledScene& scene, const CompiledLight& light, vec3 p, const vec3* normal,
                          RandomStream& random) {
+  return sample_light(scene, light, p, normal, has_extent(light) ? random.next_pair() : RandomStream::Pair{});
+}
+
+LightSample sample_light(const CompiledScene& scene, const CompiledLight& light, vec3 p, const vec3* normal,
+                         RandomStream::Pair numbers) {
   switch (light.kind) {
     case CompiledLight::Kind::point:
       return sample_point(light, p);
@@ -124,11 +133,11 @@ LightSample sample_light(const CompiledScene& scene, const CompiledLight& light,
     case CompiledLight::Kind::infinite:
       break;
     case CompiledLight::Kind::image:
-      return sample_image(scene, light, p, random);
+      return sample_image(scene, light, p, numbers);
     case CompiledLight::Kind::area:
-      return sample_area(scene, light, p, random);
+      return sample_area(scene, light, p, numbers);
   }
-  return sample_constant(light, p, normal, random);
+  return sample_constant(light, p, normal, numbers);
 }
 
 Ray started_at(vec3 start, const Ray& ray) {

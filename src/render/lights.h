@@ -27,7 +27,13 @@ struct LightSample {
 // Directions of a constant infinite light are uniform in a medium and in proportion to their cosine on a surface.
 // The ray starts at p; from a surface, whoever follows it starts a little off (leave_surface, started_at).
 LightSample sample_light(const CompiledScene& scene, const CompiledLight& light, kernel::vec3 p,
+                         const kernel::vec3* normal, RandomStream::Pair numbers);
+// The same with a pair of random numbers, where the light takes any.
+LightSample sample_light(const CompiledScene& scene, const CompiledLight& light, kernel::vec3 p,
                          const kernel::vec3* normal, RandomStream& random);
+
+// Whether the light is seen in more than one direction from a point.
+bool has_extent(const CompiledLight& light);
 
 // The ray of a light sample on a surface, from `start` a little off the surface to the same end.
 Ray started_at(kernel::vec3 start, const Ray& ray);

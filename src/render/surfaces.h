@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "compiled/compiled_scene.h"
 #include "intersect/intersector.h"
@@ -29,19 +28,6 @@ inline kernel::vec3 leave_surface(kernel::vec3 p, kernel::vec3 n, float t) {
 
 inline float clamped_cosine(kernel::vec3 a, kernel::vec3 b) { return std::max(0.0f, dot(a, b)); }
 
-// diffuse / pi + specular (s + 8) / (8 pi) (n.h)^s: the factor keeps the highlight's energy for every shininess.
-// Source: T. Akenine-Möller et al., Real-Time Rendering, 3rd ed., eq. 7.48.
-inline Spectrum blinn_phong(const CompiledMaterial& m, kernel::vec3 n, kernel::vec3 to_light, kernel::vec3 to_viewer) {
-  Spectrum f = std::numbers::inv_pi_v<float> * m.diffuse;
-  if (is_zero(m.specular)) return f;
-  const kernel::vec3 sum = to_light + to_viewer;
-  const float squared = dot(sum, sum);
-  const float cosine = squared > 0 ? clamped_cosine(n, sum) / std::sqrt(squared) : 0;
-  if (cosine > 0)
-    f = f + (m.shininess + 8) / (8 * std::numbers::pi_v<float>)*kernel::pow_positive(cosine, m.shininess) * m.specular;
-  return f;
-}
-
 // The direction of a mirror's reflection.
 inline kernel::vec3 reflect(kernel::vec3 direction, kernel::vec3 normal) {
   return normalize(direction - (2 * dot(direction, normal)) * normal);
@@ -61,6 +47,16 @@ struct SurfaceSample {
 };
 
 // Below, `hit` is facing the ray that travels along `direction`.
+
+// What a smooth surface sends on in a mirror's direction and in the refracted one, as shares of the light that meets
+// it. Radiance that is refracted is `squeeze` times as great besides, as a solid angle changes with it.
+struct SmoothLobes {
+  Spectrum reflected, refracted;
+  kernel::vec3 refracted_direction{0, 0, 0};
+  float squeeze = 1;
+};
+SmoothLobes smooth_lobes(const CompiledMaterial& material, const SurfaceHit& hit, kernel::vec3 direction);
+
 SurfaceSample sample_surface(const CompiledScene& scene, const SurfaceHit& hit, kernel::vec3 direction,
                              RandomStream& random);
 
@@ -69,8 +65,20 @@ SurfaceSample sample_surface(const CompiledScene& scene, const SurfaceHit& hit, 
 Spectrum eval_surface(const CompiledScene& scene, const SurfaceHit& hit, kernel::vec3 direction, kernel::vec3 to_light,
                       float& pdf);
 
+// That in two parts: the facets of a rough surface (alpha above 0), with the density of directions that are drawn from
+// them, and the rest.
+Spectrum eval_matt(const CompiledScene& scene, const SurfaceHit& hit, kernel::vec3 direction, kernel::vec3 to_light);
+Spectrum eval_facets(const CompiledScene& scene, const SurfaceHit& hit, kernel::vec3 direction, kernel::vec3 to_light,
+                     float& pdf);
+SurfaceSample sample_facets(const CompiledMaterial& material, const SurfaceHit& hit, kernel::vec3 direction,
+                            RandomStream& random);
+
 // True where eval_surface is not 0 throughout, that is where light can be gathered by shadow rays.
 bool scatters_widely(const CompiledMaterial& material);
+
+// The share of light that crosses the surface straight on, as if it were not refracted. The cosine to the normal is
+// taken for that on the outer side, which before and behind a plate is the same.
+Spectrum straight_transmittance(const CompiledMaterial& material, float cosine);
 
 // The ray that goes on from `ray`'s hit, and starts on the side that it is going to.
 inline Ray continued(const Ray& ray, const SurfaceHit& hit, const SurfaceSample& sample) {

@@ -2,12 +2,17 @@
 
 #include <algorithm>
 
+#include "render/lights.h"
+#include "render/surfaces.h"
+
 namespace brume {
 
 namespace {
 
 // An optical depth beyond which the transmittance (below 1e-11) needs no better value.
 constexpr float opaque_depth = 25;
+constexpr float negligible_transmittance = 1e-6f;  // of surfaces
+constexpr int most_surfaces = 1000;
 
 float smallest_positive(const Spectrum& s) {
   float smallest = 0;
@@ -24,7 +29,11 @@ float march_step(const CompiledScene& scene, const CompiledMedium& medium, float
 }
 
 Visibility::Visibility(const CompiledScene& scene, const Intersector& intersector, const MediaAlongRay& media)
-    : scene_(scene), intersector_(intersector), media_(media) {}
+    : scene_(scene),
+      intersector_(intersector),
+      media_(media),
+      has_glass_(std::any_of(scene.materials.begin(), scene.materials.end(),
+                             [](const CompiledMaterial& m) { return !is_zero(m.refraction); })) {}
 
 void Visibility::find(std::span<const Ray> rays, RandomStream& random, std::vector<Spectrum>& transmittance) {
   transmittance.assign(rays.size(), Spectrum{});
@@ -33,7 +42,8 @@ void Visibility::find(std::span<const Ray> rays, RandomStream& random, std::vect
   open_rays_.clear();
   open_indices_.clear();
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    if (blocked_[i]) continue;
+    transmittance[i] = blocked_[i] == 0 ? constant_spectrum(1) : has_glass_ ? cross_surfaces(rays[i]) : Spectrum{};
+    if (is_zero(transmittance[i])) continue;
     open_rays_.push_back(rays[i]);
     open_indices_.push_back(i);
   }
@@ -49,7 +59,20 @@ void Visibility::find(std::span<const Ray> rays, RandomStream& random, std::vect
   }
   for (std::size_t i = 0; i < open_rays_.size(); ++i)
     for (int c = 0; c < channel_count; ++c)
-      transmittance[open_indices_[i]][c] = kernel::beer_lambert(optical_depth_[i][c]);
+      transmittance[open_indices_[i]][c] *= kernel::beer_lambert(optical_depth_[i][c]);
+}
+
+// What the surfaces along the ray leave; 0 behind an opaque one.
+Spectrum Visibility::cross_surfaces(Ray ray) const {
+  Spectrum left = constant_spectrum(1);
+  SurfaceHit hit;
+  for (int crossed = 0; intersector_.nearest_surface(ray, hit); ++crossed) {
+    hit = facing(hit, ray.direction);
+    left = left * straight_transmittance(material_at(scene_, hit), clamped_cosine(hit.shading_normal, -ray.direction));
+    if (max_value(left) < negligible_transmittance || crossed == most_surfaces) return {};
+    ray = started_at(leave_surface(ray.at(hit.t), -hit.normal, hit.t), ray);
+  }
+  return left;
 }
 
 void Visibility::add_optical_depths(int medium_index, std::span<const MediumSpan> spans, RandomStream& random) {

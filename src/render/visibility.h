@@ -1,4 +1,5 @@
-// What of a light's radiance arrives: nothing behind a surface, exp(-tau) through media.
+// What of a light's radiance arrives: nothing behind an opaque surface, exp(-tau) through media, and Fresnel's share
+// through glass, which is crossed straight on.
 #pragma once
 
 #include <span>
@@ -26,12 +27,14 @@ class Visibility {
   std::optional<kernel::vec3> too_many_media() const { return too_many_media_; }
 
  private:
+  Spectrum cross_surfaces(Ray ray) const;
   void add_optical_depths(int medium_index, std::span<const MediumSpan> spans, RandomStream& random);
 
   const CompiledScene& scene_;
   const Intersector& intersector_;
   const MediaAlongRay& media_;
   std::optional<kernel::vec3> too_many_media_;
+  const bool has_glass_;  // shadow rays pass through some surface
 
   std::vector<std::uint8_t> blocked_;
   std::vector<Ray> open_rays_;

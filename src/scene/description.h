@@ -77,7 +77,8 @@ struct IntegratorDescription {
   int max_depth = 5;
   Traversal traversal = Traversal::march;
   Placement placement = Placement::middle;
-  double step = 0;  // world units; 0 is the default of each medium
+  double step = 0;         // world units; 0 is the default of each medium
+  int shadow_samples = 1;  // classic: shadow rays from a surface to a light with a size
   Location location;
 };
 
@@ -117,23 +118,36 @@ struct MediumDescription {
 struct DiffuseMaterial {
   Spectrum reflectance = constant_spectrum(0.5f);
 };
-// f = diffuse / pi + specular (shininess + 8) / (8 pi) (n.h)^shininess, and a mirror of colour `reflection`.
+// A diffuse colour and a highlight about the mirror's direction, tinted by the diffuse colour as far as the material is
+// metallic; a mirror of colour `reflection`; and a share `refraction` of the light for which the surface is glass that
+// absorbs within (see CompiledMaterial). `ambient` is the colour under light that comes from nowhere.
 struct BlinnPhongMaterial {
   Spectrum diffuse = constant_spectrum(0.5f), specular, reflection;
   float shininess = 32;
+  Spectrum refraction{}, absorption{};  // absorption: per world unit
+  Spectrum ambient = constant_spectrum(0.5f);
+  float metallic = 0, index = 1.5f;
 };
 // No surface: the boundary of a medium.
 struct InterfaceMaterial {};
-// A smooth metal, by its complex index of refraction.
+// A metal, by its complex index of refraction. Here and below alpha is the width of the distribution of facets
+// (base/microfacet.h); 0 is smooth.
 struct ConductorMaterial {
   Spectrum eta, k;
+  float alpha = 0;
 };
 // Smooth glass, by the index of refraction of its inside over that of its outside.
 struct DielectricMaterial {
   float eta = 1.5f;
 };
-using MaterialDescription =
-    std::variant<DiffuseMaterial, BlinnPhongMaterial, InterfaceMaterial, ConductorMaterial, DielectricMaterial>;
+// A diffuse base under a clear coat, whose index of refraction over that of the outside is eta.
+struct CoatedDiffuseMaterial {
+  Spectrum reflectance = constant_spectrum(0.5f);
+  float eta = 1.5f;
+  float alpha = 0;
+};
+using MaterialDescription = std::variant<DiffuseMaterial, BlinnPhongMaterial, InterfaceMaterial, ConductorMaterial,
+                                         DielectricMaterial, CoatedDiffuseMaterial>;
 
 struct SphereShape {
   double radius = 1;
@@ -200,8 +214,18 @@ struct InfiniteLight {
   Transform world_from_light{};
   double illuminance = 0;  // above 0: an image is scaled to this illuminance of a surface that faces the light's +z
 };
+// A black ball that shines alike in all directions.
+struct SphereLight {
+  Vector3 from;  // world: its centre
+  double radius = 1;
+  Spectrum intensity;  // of the whole ball, times scale
+};
+// Light of this radiance from everywhere that nothing shadows: for the integrator "classic".
+struct AmbientLight {
+  Spectrum radiance;
+};
 struct LightDescription {
-  std::variant<PointLight, SpotLight, DistantLight, InfiniteLight> kind;
+  std::variant<PointLight, SpotLight, DistantLight, InfiniteLight, SphereLight, AmbientLight> kind;
   Location location;
 };
 

@@ -82,6 +82,19 @@ bool keeps_angles(const Transform& t) {
          std::abs(dot(x, y)) < tolerance && std::abs(dot(y, z)) < tolerance && std::abs(dot(z, x)) < tolerance;
 }
 
+SphereLight read_sphere(ParameterList& p, const Transform& ctm) {
+  SphereLight light;
+  light.intensity = read_colour(p, "I", "power", 4 * std::numbers::pi);
+  light.from = read_place(p, "from", {0, 0, 0}, ctm);
+  light.radius = p.number("radius", 1, Range::above(0)) * length(ctm.vector({1, 0, 0}));
+  if (!(light.radius <= max_float)) p.error(p.place(), "the radius of LightSource \"sphere\" is out of range");
+  if (!keeps_angles(ctm))
+    p.error(p.place(), "LightSource \"sphere\" is round, but the current transformation stretches it");
+  if (!(static_cast<double>(max_value(light.intensity)) <= max_float * light.radius * light.radius))
+    p.error(p.place(), "LightSource \"sphere\" is too small for its intensity");
+  return light;
+}
+
 }  // namespace
 
 InfiniteLight Reader::infinite_light(ParameterList& p, const Transform& ctm) {
@@ -106,7 +119,7 @@ InfiniteLight Reader::infinite_light(ParameterList& p, const Transform& ctm) {
 
 void Reader::light_source() {
   const std::string type = string_argument("a type");
-  const std::vector<std::string_view> types = {"point", "spot", "distant", "infinite"};
+  const std::vector<std::string_view> types = {"point", "spot", "sphere", "distant", "infinite", "ambient"};
   if (std::find(types.begin(), types.end(), type) == types.end())
     unknown_type(argument_, "LightSource", type, types, {"goniometric", "projection"});
   ParameterList p = parameters(fmt::format("LightSource \"{}\"", type), "light");
@@ -119,8 +132,12 @@ void Reader::light_source() {
     light.kind = PointLight{read_place(p, "from", {0, 0, 0}, ctm), intensity};
   } else if (type == "spot") {
     light.kind = read_spot(p, ctm);
+  } else if (type == "sphere") {
+    light.kind = read_sphere(p, ctm);
   } else if (type == "distant") {
     light.kind = read_distant(p, ctm);
+  } else if (type == "ambient") {
+    light.kind = AmbientLight{read_colour(p, "L", "", 1)};
   } else {
     light.kind = infinite_light(p, ctm);
   }

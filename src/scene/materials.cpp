@@ -12,6 +12,8 @@ namespace {
 
 constexpr double max_shininess = 1e6;
 constexpr double least_index = 0.01, greatest_index = 100;
+constexpr float usual_index = 1.5f;
+constexpr double least_alpha = 1e-3;
 
 // pbrt's metals, at the wavelengths that stand for red, green and blue: 617, 549 and 471 nm, photons of 2.01, 2.26 and
 // 2.63 eV. Rounded from P. B. Johnson and R. W. Christy, "Optical constants of the noble metals", Phys. Rev. B 6, 1972
@@ -61,17 +63,30 @@ Spectrum read_complex_index(ParameterList& p, std::string_view parameter, Spectr
   return {};
 }
 
-void read_roughness(ParameterList& p) {
+// pbrt's: alpha is the root of the roughness unless that is switched off, and a narrow distribution is none at all.
+float read_roughness(ParameterList& p) {
+  const Range range = Range::from_to(0, 1);
+  const double roughness = p.number("roughness", 0, range);
+  const double u = p.number("uroughness", roughness, range), v = p.number("vroughness", roughness, range);
+  if (u != v)
+    p.warning(p.place(),
+              fmt::format("the roughness of {} is taken for the same in all directions: the root of uroughness "
+                          "times vroughness",
+                          p.owner()));
+  const double mean = std::sqrt(u * v), alpha = p.boolean("remaproughness", true) ? std::sqrt(mean) : mean;
+  return alpha < least_alpha ? 0 : static_cast<float>(alpha);
+}
+
+void refuse_roughness(ParameterList& p) {
   for (const std::string_view name : {"roughness", "uroughness", "vroughness"})
     if (p.number(name, 0) != 0)
-      p.value_error(*p.find(ParameterType::float_, name), 0, "must be 0: rough surfaces are not supported yet");
+      p.value_error(*p.find(ParameterType::float_, name), 0, "must be 0: rough glass is not supported yet");
   p.ignore({"bool remaproughness"});
 }
 
 // A reflectance r at normal incidence is that of the index 1 + i k with k = 2 sqrt(r / (1 - r)).
 ConductorMaterial read_conductor(ParameterList& p) {
-  read_roughness(p);
-  ConductorMaterial m{constant_spectrum(1), {}};
+  ConductorMaterial m{constant_spectrum(1), {}, read_roughness(p)};
   if (!p.has(ParameterType::rgb, "reflectance") && !p.has(ParameterType::spectrum, "reflectance")) {
     m.eta = read_complex_index(p, "eta", &Metal::eta);
     m.k = read_complex_index(p, "k", &Metal::k);
@@ -86,32 +101,46 @@ ConductorMaterial read_conductor(ParameterList& p) {
   return m;
 }
 
-DielectricMaterial read_dielectric(ParameterList& p) {
+float read_index(ParameterList& p, std::string_view parameter) {
+  return static_cast<float>(
+      p.number(parameter, static_cast<double>(usual_index), Range::from_to(least_index, greatest_index)));
+}
+
+// The index of refraction "eta" as a number or as the spectrum of a glass.
+float read_eta(ParameterList& p) {
   p.rename("index", "eta");
-  read_roughness(p);
-  DielectricMaterial m;
-  if (!p.has(ParameterType::spectrum, "eta")) {
-    m.eta =
-        static_cast<float>(p.number("eta", static_cast<double>(m.eta), Range::from_to(least_index, greatest_index)));
-    return m;
-  }
+  if (!p.has(ParameterType::spectrum, "eta")) return read_index(p, "eta");
   const std::string name = spectrum_name(p, "eta");
   if (name.empty()) {
-    m.eta = p.colour("eta", constant_spectrum(m.eta), ColourUse::coefficient)[1];  // in green
-    if (!(m.eta >= static_cast<float>(least_index) && m.eta <= static_cast<float>(greatest_index)))
+    const float eta = p.colour("eta", constant_spectrum(usual_index), ColourUse::coefficient)[1];  // in green
+    if (!(eta >= static_cast<float>(least_index) && eta <= static_cast<float>(greatest_index)))
       p.value_error(*p.find(ParameterType::spectrum, "eta"), 1,
-                    fmt::format("must be from {} to {}, found {}", least_index, greatest_index, m.eta));
-    return m;
+                    fmt::format("must be from {} to {}, found {}", least_index, greatest_index, eta));
+    return eta;
   }
   std::vector<std::string> names;
   for (const Glass& glass : glasses) {
-    if (name == glass.name) return {glass.eta};
+    if (name == glass.name) return glass.eta;
     names.emplace_back(fmt::format("\"{}\"", glass.name));
   }
   p.value_error(
       *p.find(ParameterType::spectrum, "eta"), 0,
       fmt::format("names the unknown spectrum \"{}\"; it can be {}", printable(name), enumerate(names, "or")));
-  return m;
+  return usual_index;
+}
+
+DielectricMaterial read_dielectric(ParameterList& p) {
+  refuse_roughness(p);
+  return {read_eta(p)};
+}
+
+CoatedDiffuseMaterial read_coated_diffuse(ParameterList& p) {
+  // pbrt's way to compute the same surface by random walks between base and coat.
+  p.ignore({"float thickness", "float g", "integer maxdepth", "integer nsamples"});
+  for (const ParameterType type : {ParameterType::rgb, ParameterType::spectrum})
+    if (const Parameter* albedo = p.find(type, "albedo"); albedo && !is_zero(p.colour("albedo", {}, ColourUse::albedo)))
+      p.value_error(*albedo, 0, "must be 0: a coat that scatters is not supported");
+  return {p.colour("reflectance", constant_spectrum(0.5f), ColourUse::albedo), read_eta(p), read_roughness(p)};
 }
 
 DiffuseMaterial read_diffuse(ParameterList& p) {
@@ -126,7 +155,22 @@ BlinnPhongMaterial read_blinn_phong(ParameterList& p) {
   m.reflection = p.colour("reflection", m.reflection, ColourUse::albedo);
   m.shininess =
       static_cast<float>(p.number("shininess", static_cast<double>(m.shininess), Range::from_to(0, max_shininess)));
+  m.ambient = p.colour("ambient", m.diffuse, ColourUse::albedo);
+  m.metallic = static_cast<float>(p.number("metallic", 0, Range::from_to(0, 1)));
+  m.refraction = p.colour("refraction", m.refraction, ColourUse::albedo);
+  m.index = read_index(p, "index");
+  m.absorption = p.colour("absorption", m.absorption, ColourUse::coefficient);
   return m;
+}
+
+// What is odd about a material, "" where nothing is.
+std::string doubt_about(const BlinnPhongMaterial& m) {
+  const float most = max_value(m.diffuse + m.specular + m.reflection + m.refraction);
+  if (most > 1.00001f)
+    return fmt::format("sends back more light than it gets: diffuse + specular + reflection + refraction is {:.3g}",
+                       most);
+  if (is_zero(m.refraction) && !is_zero(m.absorption)) return "absorbs nothing without \"rgb refraction\"";
+  return {};
 }
 
 }  // namespace
@@ -150,12 +194,17 @@ MaterialDescription Reader::read_material(const std::string& given, const Place&
     material = read_conductor(p);
   else if (type == "dielectric")
     material = read_dielectric(p);
+  else if (type == "coateddiffuse")
+    material = read_coated_diffuse(p);
   else if (type == "interface")
     material = InterfaceMaterial{};
   else
-    unknown_type(type_place, "Material", type, {"diffuse", "blinnphong", "conductor", "dielectric", "interface"},
-                 {"coateddiffuse", "thindielectric", "coatedconductor", "diffusetransmission", "subsurface", "mix",
-                  "measured", "hair"});
+    unknown_type(type_place, "Material", type,
+                 {"diffuse", "coateddiffuse", "blinnphong", "conductor", "dielectric", "interface"},
+                 {"thindielectric", "coatedconductor", "diffusetransmission", "subsurface", "mix", "measured", "hair"});
+  if (const auto* phong = std::get_if<BlinnPhongMaterial>(&material))
+    if (const std::string doubt = doubt_about(*phong); !doubt.empty())
+      p.warning(p.place(), fmt::format("{} {}", p.owner(), doubt));
   p.refuse({"texture displacement", "string normalmap", "float displacement"}, "is not supported yet");
   p.finish();
   return material;

@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::int64_t max_samples = std::int64_t{1} << 24;
 constexpr std::int64_t max_depth = 1000000;
+constexpr std::int64_t max_shadow_samples = 65536;
 constexpr std::int64_t max_seed = 0xffffffff;
 constexpr double max_filter_radius = 32;  // pixels
 
@@ -148,6 +149,7 @@ void Reader::integrator() {
     i.placement = static_cast<Placement>(p.choice("placement", {"start", "random", "middle", "middle-random"},
                                                   static_cast<std::size_t>(Placement::middle)));
     i.step = p.number("step", 0, Range::at_least(0));
+    i.shadow_samples = static_cast<int>(p.integer("shadowsamples", 1, 1, max_shadow_samples));
   } else if (type != "reference") {
     p.rename("lightsamplestrategy", "lightsampler");
     p.ignore({"string lightsampler", "bool regularize", "bool samplelights", "bool samplebsdf",

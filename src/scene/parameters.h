@@ -106,6 +106,7 @@ class ParameterList {
   void warn(const std::vector<std::string_view>& ineffective, const std::string& reason);
 
   void error(const Place& place, const std::string& message) { messages_.error(place, message); }
+  void warning(const Place& place, const std::string& message) { messages_.warning(place, message); }
   // An error about a parameter's value: `"float fov" of Camera "perspective" MESSAGE`, at the value where it is known.
   void value_error(const Parameter& parameter, std::size_t index, const std::string& message);
   // The place of a parameter's first value, or of the directive where there is none.

@@ -123,9 +123,9 @@ class Writer {
     const IntegratorDescription& i = scene.integrator;
     line("Integrator {} \"integer maxdepth\" {}", quoted(i.name), i.max_depth);
     if (i.name == "classic")
-      line("  \"string traversal\" \"{}\" \"string placement\" \"{}\" \"float step\" {}",
+      line("  \"string traversal\" \"{}\" \"string placement\" \"{}\" \"float step\" {} \"integer shadowsamples\" {}",
            traversal_names[static_cast<std::size_t>(i.traversal)],
-           placement_names[static_cast<std::size_t>(i.placement)], i.step);
+           placement_names[static_cast<std::size_t>(i.placement)], i.step, i.shadow_samples);
   }
 
   void camera(const SceneDescription& scene) {
@@ -215,6 +215,15 @@ class Writer {
     if (moved) end_block();
   }
 
+  void light_kind(const SphereLight& l) {
+    line("LightSource \"sphere\" \"point3 from\" [{}] \"float radius\" {}", numbers(l.from), l.radius);
+    colour("I", l.intensity);
+  }
+  void light_kind(const AmbientLight& l) {
+    line("LightSource \"ambient\"");
+    colour("L", l.radiance);
+  }
+
   void shape(const ShapeDescription& s) {
     line("");
     begin_block();
@@ -234,18 +243,33 @@ class Writer {
     colour("reflectance", m.reflectance);
   }
   void material(const BlinnPhongMaterial& m) {
-    line("Material \"blinnphong\" \"float shininess\" {}", m.shininess);
+    line("Material \"blinnphong\" \"float shininess\" {} \"float metallic\" {}", m.shininess, m.metallic);
+    colour("ambient", m.ambient);
     colour("diffuse", m.diffuse);
     colour("specular", m.specular);
     colour("reflection", m.reflection);
+    if (is_zero(m.refraction)) return;
+    colour("refraction", m.refraction);
+    line("  \"float index\" {}", m.index);
+    colour("absorption", m.absorption);
   }
   void material(const InterfaceMaterial&) { line("Material \"interface\""); }
   void material(const ConductorMaterial& m) {
     line("Material \"conductor\"");
     colour("eta", m.eta);
     colour("k", m.k);
+    roughness(m.alpha);
   }
   void material(const DielectricMaterial& m) { line("Material \"dielectric\" \"float eta\" {}", m.eta); }
+
+  void material(const CoatedDiffuseMaterial& m) {
+    line("Material \"coateddiffuse\" \"float eta\" {}", m.eta);
+    colour("reflectance", m.reflectance);
+    roughness(m.alpha);
+  }
+  void roughness(float alpha) {
+    if (alpha > 0) line("  \"float roughness\" {} \"bool remaproughness\" false", alpha);
+  }
 
   void area_light(const AreaLight& l) {
     line("AreaLightSource \"diffuse\" \"bool twosided\" {}", l.two_sided);

@@ -58,6 +58,10 @@ struct DescribeLight {
     if (!l.filename.empty()) return fmt::format("infinite, image {} times {}", l.filename, text(l.radiance));
     return fmt::format("infinite, radiance {}", text(l.radiance));
   }
+  std::string operator()(const SphereLight& l) const {
+    return fmt::format("sphere at {} of radius {}, intensity {}", text(l.from), l.radius, text(l.intensity));
+  }
+  std::string operator()(const AmbientLight& l) const { return fmt::format("ambient, radiance {}", text(l.radiance)); }
 };
 
 std::string describe_shapes(const std::vector<ShapeDescription>& shapes) {

@@ -92,6 +92,29 @@ TEST_P(Lights, SphereGivesItsIrradiance) {
   expect_rejected(lit_square(GetParam(), {sphere(0.74)}), 0.5 * 0.49 / 4);
 }
 
+// A sphere light has the irradiance of a point light of its intensity, E = I / d^2, whatever its size.
+TEST_P(Lights, SphereLightIsASphereOfItsIntensity) {
+  SceneDescription s = lit_square(GetParam(), {});
+  for (const double radius : {0.2, 0.9}) {
+    s.lights = {{SphereLight{{0, 0, -2}, radius, constant_spectrum(3)}, {}}};
+    expect_estimate(s, 0.5 / pi * 3 / 4, 0, 1e-3);
+  }
+  s.lights = {{SphereLight{{0, 0, -2}, 0.9, constant_spectrum(3.1f)}, {}}};
+  expect_rejected(s, 0.5 / pi * 3 / 4);
+}
+
+TEST_P(Lights, AmbientLightIsWarnedOfOnce) {
+  SceneDescription s = lit_square(GetParam(), {});
+  s.lights.assign(2, {AmbientLight{constant_spectrum(1)}, {}});
+  std::vector<Diagnostic> warnings;
+  compile(s, 1, warnings);
+  EXPECT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(radiance(s), 0);
+  s.integrator.name = "classic";
+  compile(s, 1, warnings);
+  EXPECT_EQ(warnings.size(), 1u);
+}
+
 // The power of a sphere whose area is 4 pi r^2 is pi L times that, and 1 by `power`.
 TEST_P(Lights, PowerMakesTheRadiance) {
   ShapeDescription sphere = emitter(SphereShape{0.7}, translate({0, 0, -2}));

@@ -3,9 +3,11 @@
 
 #include <cmath>
 #include <complex>
+#include <numbers>
 
+#include "base/fresnel.h"
+#include "compile/compile.h"
 #include "render/estimates.h"
-#include "render/fresnel.h"
 #include "render/path_tracers.h"
 #include "render/surfaces.h"
 
@@ -60,7 +62,7 @@ TEST(Surfaces, RefractionObeysSnell) {
   scene.shapes.resize(1);
   scene.shapes[0].material = 0;
   scene.materials.resize(1);
-  scene.materials[0].kind = CompiledMaterial::Kind::dielectric;
+  scene.materials[0].refraction = constant_spectrum(1);
   scene.materials[0].refractive_index = 1.5f;
   SurfaceHit hit;
   hit.shape = 0;
@@ -110,6 +112,180 @@ TEST_P(Furnace, APerfectConductorLosesNoLight) {
   const auto metal = [](float k) { return ConductorMaterial{constant_spectrum(1), constant_spectrum(k)}; };
   expect_estimate(furnace(GetParam(), metal(200)), 1, 1e-4, 1e-3);
   expect_rejected(furnace(GetParam(), metal(3)), 1);
+}
+
+// A facing square under a white sky shows all that it sends back: a highlight takes no more than its colour, for every
+// shininess, and a metal's is tinted by the diffuse colour.
+// Catches a highlight with another factor, and a sampler whose density is not the one that it is said to have.
+TEST_P(Furnace, BlinnPhongSendsBackItsColours) {
+  const auto square = [&](float specular, float shininess, float metallic) {
+    SceneDescription s = needle_scene({0, 0, -1});
+    s.integrator.name = GetParam();
+    s.shapes = {square_facing_z({0, 0, 0}, 3, 0)};
+    BlinnPhongMaterial m{constant_spectrum(0.25f), constant_spectrum(specular), constant_spectrum(0.1f), shininess};
+    m.metallic = metallic;
+    s.shapes[0].material = m;
+    s.lights = {sky(1)};
+    return s;
+  };
+  for (const float shininess : {0.0f, 8.0f, 1000.0f}) {
+    expect_estimate(square(0.5f, shininess, 0), 0.85, 1e-5, 1e-3);
+    expect_rejected(square(0.52f, shininess, 0), 0.85);
+  }
+  expect_estimate(square(0.6f, 32, 0.5f), 0.25 + 0.6 * 0.625 + 0.1, 1e-5, 1e-3);
+}
+
+// Catches a mirror or glass that is taken with another chance than it is weighed with.
+TEST_P(Furnace, GlassUnderAMirrorMakesAndLosesNoLight) {
+  BlinnPhongMaterial m{{}, {}, constant_spectrum(0.3f), 1};
+  m.refraction = constant_spectrum(0.7f);
+  expect_estimate(furnace(GetParam(), m), 1, 1e-6, 1e-3);
+  m.refraction = constant_spectrum(0.6f);
+  expect_rejected(furnace(GetParam(), m), 1);
+}
+
+// Light that the coat lets through goes to and fro between base and coat until it leaves.
+TEST_P(Furnace, ACoatOverWhiteMakesAndLosesNoLight) {
+  expect_estimate(furnace(GetParam(), CoatedDiffuseMaterial{constant_spectrum(1), 1.5f}), 1, 2e-6, 1e-3);
+  expect_rejected(furnace(GetParam(), CoatedDiffuseMaterial{constant_spectrum(0.97f), 1.5f}), 1);
+}
+
+// Seen at 60 degrees: F + (1 - F) rho (1 - R_i) / (1 - rho R_i), with the reflectance from within as the test of
+// Fresnel's equations has it.
+TEST_P(Furnace, ACoatedSurfaceSendsBackItsAlbedo) {
+  SceneDescription s = needle_scene();
+  s.integrator.name = GetParam();
+  s.camera.world_from_camera = rotate(60, {0, 1, 0}) * translate({0, 0, -1});
+  s.shapes = {square_facing_z({0, 0, 0}, 3, 0)};
+  s.shapes[0].material = CoatedDiffuseMaterial{constant_spectrum(0.6f), 1.5f};
+  s.lights = {sky(1)};
+  const double f = static_cast<double>(dielectric(0.5f, 1.5f)), r = diffuse_reflectance(1 / 1.5f);
+  const double expected = f + (1 - f) * 0.6 * (1 - r) / (1 - 0.6 * r);
+  expect_estimate(s, expected, 1e-5, 1e-3);
+  expect_rejected(s, f + (1 - f) * 0.6 * (1 - r));
+  // Light is found by lamps and by paths alike.
+  ShapeDescription lamp = sphere_shape({0.3, 0.2, -2}, 0.7, "");
+  lamp.material = DiffuseMaterial{{}};
+  lamp.light = AreaLight{constant_spectrum(1), false, 0};
+  s.shapes.push_back(lamp);
+  expect_estimate(s, expected, 1e-5, 1e-3);
+}
+
+TEST_P(Furnace, AHighlightIsFoundByLampsAndByPathsAlike) {
+  SceneDescription s = needle_scene({0, 0, -0.5});
+  s.integrator.name = GetParam();
+  s.shapes = {square_facing_z({0, 0, 0}, 3, 0), sphere_shape({0.3, 0.2, -2}, 0.7, "")};
+  s.shapes[0].material = BlinnPhongMaterial{constant_spectrum(0.2f), constant_spectrum(0.5f), {}, 12};
+  s.shapes[1].material = DiffuseMaterial{{}};
+  s.shapes[1].light = AreaLight{constant_spectrum(1), false, 0};
+  s.lights = {sky(1)};
+  expect_estimate(s, 0.7, 1e-5, 1e-3);
+  s.shapes[1].light->radiance = constant_spectrum(1.1f);
+  expect_rejected(s, 0.7);
+}
+
+// What a rough metal sends back of a white sky, seen at a cosine mu, by quadrature over the directions l of the light:
+// the integral of F D / (4 mu (1 + Lambda + Lambda')) dl, written anew.
+double rough_metal_albedo(double mu, double alpha, double k) {
+  constexpr int rings = 500, sectors = 1000;
+  const auto hidden = [&](double c) { return (std::sqrt(1 + alpha * alpha * (1 / (c * c) - 1)) - 1) / 2; };
+  const double vx = std::sqrt(1 - mu * mu);
+  double sum = 0;
+  for (int i = 0; i < rings; ++i)
+    for (int j = 0; j < sectors; ++j) {
+      const double lz = (i + 0.5) / rings, r = std::sqrt(1 - lz * lz), phi = 2 * std::numbers::pi * (j + 0.5) / sectors;
+      const double hx = r * std::cos(phi) + vx, hy = r * std::sin(phi), hz = lz + mu;
+      const double size = std::sqrt(hx * hx + hy * hy + hz * hz), cosine = hz / size;
+      const double t = cosine * cosine * (alpha * alpha - 1) + 1;
+      const double d = alpha * alpha / (std::numbers::pi * t * t);
+      const float f = fresnel_conductor(static_cast<float>((hx * vx + hz * mu) / size), 1, static_cast<float>(k));
+      sum += static_cast<double>(f) * d / (4 * mu * (1 + hidden(mu) + hidden(lz)));
+    }
+  return sum * 2 * std::numbers::pi / (rings * sectors);
+}
+
+// Catches facets that hide too many others or too few, a density that is not the sampler's, and lamps and paths that
+// are weighed wrongly against each other.
+TEST_P(Furnace, ARoughMetalSendsBackItsAlbedo) {
+  SceneDescription s = needle_scene();
+  s.integrator.name = GetParam();
+  s.camera.world_from_camera = rotate(60, {0, 1, 0}) * translate({0, 0, -1});
+  s.shapes = {square_facing_z({0, 0, 0}, 3, 0)};
+  s.lights = {sky(1)};
+  const auto metal = [](float alpha) { return ConductorMaterial{constant_spectrum(1), constant_spectrum(4), alpha}; };
+  for (const float alpha : {0.5f, 0.1f}) {
+    s.shapes[0].material = metal(alpha);
+    expect_estimate(s, rough_metal_albedo(0.5, static_cast<double>(alpha), 4), 1e-5, 1e-3);
+  }
+  s.shapes[0].material = metal(0.5f);
+  expect_rejected(s, rough_metal_albedo(0.5, 0.55, 4));
+  ShapeDescription lamp = sphere_shape({-0.6, 0.2, -1.5}, 0.7, "");
+  lamp.material = DiffuseMaterial{{}};
+  lamp.light = AreaLight{constant_spectrum(1), false, 0};
+  s.shapes.push_back(lamp);
+  expect_estimate(s, rough_metal_albedo(0.5, 0.5, 4), 1e-5, 1e-3);
+  s.integrator.name = "classic";
+  expect_estimate(s, rough_metal_albedo(0.5, 0.5, 4), 1e-5, 1e-3);
+}
+
+// The base gets what the facets of the coat do not reflect. The table of that is exact to 2e-4.
+TEST_P(Furnace, ARoughCoatOverWhiteMakesAndLosesNoLight) {
+  for (const float alpha : {0.1f, 0.6f})
+    expect_estimate(furnace(GetParam(), CoatedDiffuseMaterial{constant_spectrum(1), 1.5f, alpha}), 1, 2e-4, 1e-3);
+  expect_rejected(furnace(GetParam(), CoatedDiffuseMaterial{constant_spectrum(0.97f), 1.5f, 0.6f}), 1);
+}
+
+// Facets with next to no spread are the mirror.
+TEST_P(Furnace, AHardlyRoughCoatIsTheSmoothOne) {
+  SceneDescription s = furnace(GetParam(), CoatedDiffuseMaterial{constant_spectrum(0.5f), 1.5f, 0.02f});
+  const double rough = estimate(s, 100000).mean;
+  s.shapes[0].material = CoatedDiffuseMaterial{constant_spectrum(0.5f), 1.5f, 0};
+  EXPECT_NEAR(estimate(s, 100000).mean, rough, 4e-3);
+}
+
+// A ball of glass that absorbs, seen through its middle: what is reflected to and fro along the axis adds up to R + (1
+// - R)^2 a / (1 - R a).
+TEST_P(Furnace, GlassAbsorbsAlongTheWay) {
+  SceneDescription s = needle_scene({0, 0, -5});
+  s.integrator.name = GetParam();
+  s.integrator.max_depth = 1000;
+  BlinnPhongMaterial m{{}, {}, {}, 1};
+  m.refraction = constant_spectrum(1);
+  m.absorption = Spectrum{{0.1f, 0.35f, 0.9f}};
+  s.shapes = {sphere_shape({0, 0, 0}, 1, "")};
+  s.shapes[0].material = m;
+  s.lights = {sky(1)};
+  std::vector<Expected> expected;
+  for (int c = 0; c < channel_count; ++c) {
+    const double a = std::exp(-2 * static_cast<double>(m.absorption[c]));
+    expected.push_back({0.04 + 0.96 * 0.96 * a / (1 - 0.04 * a), 1e-5});
+  }
+  expect_estimates(s, expected, 2e-3);
+  m.absorption = Spectrum{{0.1f, 0.35f, 0.8f}};
+  s.shapes[0].material = m;
+  expect_rejected(s, expected, 2e-3);
+}
+
+// f is the same with light and viewer exchanged.
+TEST(Surfaces, ReflectionIsReciprocal) {
+  SceneDescription s = needle_scene();
+  s.shapes.assign(3, square_facing_z({0, 0, 0}, 1, 0));
+  s.shapes[0].material = CoatedDiffuseMaterial{constant_spectrum(0.6f), 1.5f};
+  s.shapes[1].material = BlinnPhongMaterial{constant_spectrum(0.2f), constant_spectrum(0.5f), {}, 12};
+  s.shapes[2].material = CoatedDiffuseMaterial{constant_spectrum(0.6f), 1.5f, 0.3f};
+  std::vector<Diagnostic> warnings;
+  const CompiledScene scene = compile(s, 1, warnings);
+  const kernel::vec3 a = normalize(kernel::vec3(0.3f, 0.5f, 0.4f)), b = normalize(kernel::vec3(-0.5f, 0.1f, 0.9f));
+  for (int shape : {0, 1, 2}) {
+    SurfaceHit hit;
+    hit.shape = shape;
+    hit.normal = hit.shading_normal = {0, 0, 1};
+    float pdf = 0;
+    const float there = eval_surface(scene, hit, -a, b, pdf)[0] / b.z;
+    const float back = eval_surface(scene, hit, -b, a, pdf)[0] / a.z;
+    EXPECT_GT(there, 0.01f);
+    EXPECT_NEAR(there, back, 1e-6f);
+  }
 }
 
 }  // namespace

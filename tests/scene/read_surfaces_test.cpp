@@ -33,11 +33,59 @@ TEST(ReadMaterials, ConductorsByNameByNumbersAndByReflectance) {
   EXPECT_EQ(std::get<ConductorMaterial>(material_of("\"conductor\" \"rgb eta\" [1 2 3] \"rgb k\" [4 5 6]")).k[2], 6);
 }
 
+TEST(ReadMaterials, RoughnessIsPbrts) {
+  const auto alpha = [](const std::string& text) {
+    return std::get<ConductorMaterial>(material_of("\"conductor\" " + text)).alpha;
+  };
+  EXPECT_EQ(alpha(""), 0);
+  EXPECT_EQ(alpha("\"float roughness\" 0.25"), 0.5f);
+  EXPECT_EQ(alpha("\"float roughness\" 0.25 \"bool remaproughness\" false"), 0.25f);
+  EXPECT_EQ(alpha("\"float uroughness\" 0.04 \"float vroughness\" 0.16 \"bool remaproughness\" false"), 0.08f);
+  EXPECT_EQ(alpha("\"float roughness\" 0.0005 \"bool remaproughness\" false"), 0);
+}
+
 TEST(ReadMaterials, DielectricsByNumberAndByName) {
   EXPECT_EQ(std::get<DielectricMaterial>(material_of("\"dielectric\"")).eta, 1.5f);
   EXPECT_EQ(std::get<DielectricMaterial>(material_of("\"dielectric\" \"float eta\" 1.33")).eta, 1.33f);
   EXPECT_EQ(std::get<DielectricMaterial>(material_of("\"dielectric\" \"spectrum eta\" [200 1.4 900 1.4]")).eta, 1.4f);
   EXPECT_EQ(std::get<DielectricMaterial>(material_of("\"dielectric\" \"spectrum eta\" \"glass-BK7\"")).eta, 1.5168f);
+}
+
+TEST(ReadMaterials, BlinnPhongWithAllItsParts) {
+  const auto plain = std::get<BlinnPhongMaterial>(material_of("\"blinnphong\" \"rgb diffuse\" [0.1 0.2 0.3]"));
+  EXPECT_EQ(plain.ambient, plain.diffuse);
+  EXPECT_EQ(plain.index, 1.5f);
+  EXPECT_TRUE(is_zero(plain.refraction) && is_zero(plain.absorption));
+  const auto whole = std::get<BlinnPhongMaterial>(
+      material_of("\"blinnphong\" \"rgb diffuse\" [0 0 0] \"rgb ambient\" [0.1 0.1 0.1] \"float metallic\" 0.5 \"rgb "
+                  "refraction\" [0.9 0.8 0.7] \"float index\" 1.33 \"rgb absorption\" [0 1 20]"));
+  EXPECT_EQ(whole.ambient, constant_spectrum(0.1f));
+  EXPECT_EQ(whole.metallic, 0.5f);
+  EXPECT_EQ(whole.refraction, (Spectrum{{0.9f, 0.8f, 0.7f}}));
+  EXPECT_EQ(whole.index, 1.33f);
+  EXPECT_EQ(whole.absorption, (Spectrum{{0, 1, 20}}));
+}
+
+TEST(ReadMaterials, CoatedDiffuseTakesPbrtsParameters) {
+  const auto coated = std::get<CoatedDiffuseMaterial>(material_of(
+      "\"coateddiffuse\" \"rgb reflectance\" [0.1 0.2 0.3] \"spectrum eta\" \"glass-BK7\" \"float "
+      "thickness\" 0.01 \"float g\" 0 \"rgb albedo\" [0 0 0] \"integer maxdepth\" 10 \"integer nsamples\" 1"));
+  EXPECT_EQ(coated.reflectance, (Spectrum{{0.1f, 0.2f, 0.3f}}));
+  EXPECT_EQ(coated.eta, 1.5168f);
+  EXPECT_EQ(std::get<CoatedDiffuseMaterial>(material_of("\"coateddiffuse\"")).reflectance, constant_spectrum(0.5f));
+}
+
+TEST(ReadLights, SpheresAreEnlargedWithTheirSurroundings) {
+  const SceneDescription s = world_of(
+      "Translate 1 0 0\nScale 3 3 3\nLightSource \"sphere\" \"point3 from\" [0 1 0] \"float radius\" 0.5 \"rgb I\" [1 "
+      "2 "
+      "4]\nLightSource \"ambient\" \"rgb L\" [0.1 0.2 0.3] \"float scale\" 2");
+  ASSERT_EQ(s.lights.size(), 2u);
+  const auto& sphere = std::get<SphereLight>(s.lights[0].kind);
+  EXPECT_EQ(sphere.from, (Vector3{1, 3, 0}));
+  EXPECT_EQ(sphere.radius, 1.5);
+  EXPECT_EQ(sphere.intensity, (Spectrum{{1, 2, 4}}));
+  EXPECT_EQ(std::get<AmbientLight>(s.lights[1].kind).radiance, (Spectrum{{0.2f, 0.4f, 0.6f}}));
 }
 
 TEST(ReadShapes, DisksAndCylinders) {

@@ -56,10 +56,21 @@ void expect_equal(const ShapeDescription& a, const ShapeDescription& b) {
     EXPECT_EQ(phong->specular, other.specular);
     EXPECT_EQ(phong->reflection, other.reflection);
     EXPECT_EQ(phong->shininess, other.shininess);
+    EXPECT_EQ(phong->refraction, other.refraction);
+    EXPECT_EQ(phong->absorption, other.absorption);
+    EXPECT_EQ(phong->ambient, other.ambient);
+    EXPECT_EQ(phong->metallic, other.metallic);
+    EXPECT_EQ(phong->index, other.index);
+  }
+  if (const auto* coated = std::get_if<CoatedDiffuseMaterial>(&a.material)) {
+    EXPECT_EQ(coated->reflectance, std::get<CoatedDiffuseMaterial>(b.material).reflectance);
+    EXPECT_EQ(coated->eta, std::get<CoatedDiffuseMaterial>(b.material).eta);
+    EXPECT_EQ(coated->alpha, std::get<CoatedDiffuseMaterial>(b.material).alpha);
   }
   if (const auto* conductor = std::get_if<ConductorMaterial>(&a.material)) {
     EXPECT_EQ(conductor->eta, std::get<ConductorMaterial>(b.material).eta);
     EXPECT_EQ(conductor->k, std::get<ConductorMaterial>(b.material).k);
+    EXPECT_EQ(conductor->alpha, std::get<ConductorMaterial>(b.material).alpha);
   }
   if (const auto* dielectric = std::get_if<DielectricMaterial>(&a.material)) {
     EXPECT_EQ(dielectric->eta, std::get<DielectricMaterial>(b.material).eta);
@@ -127,6 +138,15 @@ void expect_equal(const LightDescription& a, const LightDescription& b) {
     EXPECT_EQ(infinite->world_from_light, other.world_from_light);
     EXPECT_EQ(infinite->illuminance, other.illuminance);
   }
+  if (const auto* sphere = std::get_if<SphereLight>(&a.kind)) {
+    const auto& other = std::get<SphereLight>(b.kind);
+    EXPECT_EQ(sphere->from, other.from);
+    EXPECT_EQ(sphere->radius, other.radius);
+    EXPECT_EQ(sphere->intensity, other.intensity);
+  }
+  if (const auto* ambient = std::get_if<AmbientLight>(&a.kind)) {
+    EXPECT_EQ(ambient->radiance, std::get<AmbientLight>(b.kind).radiance);
+  }
 }
 
 // Exact but for the camera's matrix, which the language gives by its inverse.
@@ -150,6 +170,7 @@ void expect_equal(const SceneDescription& a, const SceneDescription& b) {
   EXPECT_EQ(a.integrator.traversal, b.integrator.traversal);
   EXPECT_EQ(a.integrator.placement, b.integrator.placement);
   EXPECT_EQ(a.integrator.step, b.integrator.step);
+  EXPECT_EQ(a.integrator.shadow_samples, b.integrator.shadow_samples);
   expect_equal(a.camera.world_from_camera, b.camera.world_from_camera, 1e-14);
   EXPECT_EQ(a.camera.fov, b.camera.fov);
   EXPECT_EQ(a.camera.screen_window, b.camera.screen_window);
@@ -175,7 +196,7 @@ TEST_P(WriteSceneFile, ReadsBackTheSame) {
   expect_round_trip(read_scene(test_folder(std::string("scenes/") + GetParam()), warnings));
 }
 INSTANTIATE_TEST_SUITE_P(Scenes, WriteSceneFile,
-                         testing::Values("fog.pbrt", "smoke.pbrt", "additions.pbrt", "surfaces.pbrt"));
+                         testing::Values("fog.pbrt", "smoke.pbrt", "additions.pbrt", "surfaces.pbrt", "classic.pbrt"));
 
 TEST(WriteScene, AnEmptySceneReadsBackTheSame) { expect_round_trip({}); }
 
