@@ -31,10 +31,10 @@ int run(std::vector<std::string> arguments) {
 int main(int argc, char** argv) {
   try {
     return run({argv + 1, argv + argc});
-  } catch (const UsageError& e) {
-    std::fprintf(stderr, "brume: %s\n", e.what());
-  } catch (const std::exception& e) {
+  } catch (const brume::Error& e) {
     std::fprintf(stderr, "%s\n", e.what());
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "error: %s\n", e.what());
   }
   return 1;
 }

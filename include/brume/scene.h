@@ -11,8 +11,8 @@
 
 namespace brume {
 
-// What every function here throws when its input is at fault. what() is ready to be shown: one or more messages with
-// file:line:column, the line and a caret.
+// What every function here throws when its input is at fault. what() is ready to be shown: one or more messages that
+// begin with the file they are about, file:line:column, where there is one, then "error:"; then the line and a caret.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

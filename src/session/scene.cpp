@@ -22,26 +22,26 @@ constexpr std::int64_t max_pixels = std::int64_t{1} << 28;
 
 void check_resolution(int width, int height) {
   if (width < 1 || height < 1 || width > max_edge || height > max_edge || std::int64_t{width} * height > max_pixels)
-    throw Error(fmt::format("resolution {}x{} is out of range: each side from 1 to {} pixels, together at most {}",
-                            width, height, max_edge, max_pixels));
+    fail(fmt::format("resolution {}x{} is out of range: each side from 1 to {} pixels, together at most {}", width,
+                     height, max_edge, max_pixels));
 }
 
 void check_crop_window(const FilmDescription& film) {
   const auto [x0, x1, y0, y1] = film.crop_window;
   if (!(0 <= x0 && x0 < x1 && x1 <= 1 && 0 <= y0 && y0 < y1 && y1 <= 1))
-    throw Error(fmt::format("crop window {},{},{},{}: must be x0,x1,y0,y1 with 0 <= x0 < x1 <= 1 and 0 <= y0 < y1 <= 1",
-                            x0, x1, y0, y1));
+    fail(fmt::format("crop window {},{},{},{}: must be x0,x1,y0,y1 with 0 <= x0 < x1 <= 1 and 0 <= y0 < y1 <= 1", x0,
+                     x1, y0, y1));
   if (const PixelBox crop = cropped_pixels(film); crop.width() < 1 || crop.height() < 1)
-    throw Error(fmt::format("crop window {},{},{},{} holds no pixel of the {} x {} pixels", x0, x1, y0, y1, film.width,
-                            film.height));
+    fail(fmt::format("crop window {},{},{},{} holds no pixel of the {} x {} pixels", x0, x1, y0, y1, film.width,
+                     film.height));
 }
 
 void check_integrator(const std::string& name) {
   if (std::find(std::begin(integrator_names), std::end(integrator_names), name) != std::end(integrator_names)) return;
   const std::string_view nearest = nearest_name(name, integrator_names);
-  throw Error(fmt::format("unknown integrator \"{}\"{}; valid are {}", name,
-                          nearest.empty() ? "" : fmt::format(", did you mean \"{}\"?", nearest),
-                          fmt::join(integrator_names, ", ")));
+  fail(fmt::format("unknown integrator \"{}\"{}; valid are {}", name,
+                   nearest.empty() ? "" : fmt::format(", did you mean \"{}\"?", nearest),
+                   fmt::join(integrator_names, ", ")));
 }
 
 // A scene as text or in another folder must find its volumes from anywhere.
@@ -99,7 +99,7 @@ void Scene::apply(const SceneOptions& options) {
   check_crop_window(film);
   const int samples = options.samples_per_pixel.value_or(scene.sampler.pixel_samples);
   if (options.samples_per_pixel && (samples < 1 || samples > max_samples))
-    throw Error(fmt::format("{} samples per pixel are out of range: from 1 to {}", samples, max_samples));
+    fail(fmt::format("{} samples per pixel are out of range: from 1 to {}", samples, max_samples));
   if (options.integrator) check_integrator(*options.integrator);
 
   scene.film = std::move(film);

@@ -90,12 +90,15 @@ TEST(Arguments, MistakesAreNamedAndNothingIsWritten) {
       {{"a.obj"}, "scenes are .pbrt or .pbrt.gz files, volumes .vdb, .nvdb or .vol"},
       {{"info", "a.obj"}, ".nvdb"},
       {{"info"}, "needs the name of a file"},
+      {{"make", "clod", "-o", "a.vdb"}, "error: unknown kind of volume \"clod\"; did you mean cloud?"},
+      {{"phase", "mie", "d=900"}, "error: d of mie must be from 0.1 to 50"},
   };
   for (const BadArguments& c : cases) {
     const Outcome outcome = run(folder.path(), c.arguments);
     const std::string shown = testing::PrintToString(c.arguments);
     EXPECT_EQ(outcome.exit_code, 1) << shown;
     EXPECT_THAT(outcome.error, HasSubstr(c.message)) << shown;
+    EXPECT_THAT(outcome.error, HasSubstr("error: ")) << shown;
     EXPECT_THAT(outcome.out, IsEmpty()) << shown;
   }
   EXPECT_THAT(folder.names(), ElementsAre("a.pbrt"));
