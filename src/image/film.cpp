@@ -8,10 +8,10 @@ namespace brume {
 
 namespace {
 
-bool is_finite(const Spectrum& s) {
+bool is_finite(const Spectrum& s, const Foreground& f) {
   for (int c = 0; c < channel_count; ++c)
     if (!std::isfinite(s[c])) return false;
-  return true;
+  return std::isfinite(f.coverage) && std::isfinite(f.depth);
 }
 
 }  // namespace
@@ -19,17 +19,22 @@ bool is_finite(const Spectrum& s) {
 Film::Film(int width, int height)
     : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
 
-void Film::add(int x, int y, const Spectrum& radiance) {
+void Film::add(int x, int y, const Spectrum& radiance, const Foreground& foreground, float weight) {
   Pixel& pixel = pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
-  if (!is_finite(radiance)) {
+  const Spectrum weighted = weight * radiance;
+  if (!is_finite(weighted, foreground)) {
     ++pixel.invalid;
     return;
   }
   for (int c = 0; c < channel_count; ++c) {
-    const double value = radiance[c];
+    const double value = weighted[c];
     pixel.sum[c] += value;
     pixel.sum_squares[c] += value * value;
   }
+  const double coverage = foreground.coverage;
+  pixel.alpha += static_cast<double>(weight) * coverage;
+  pixel.coverage += coverage;
+  pixel.depth += foreground.depth;
   ++pixel.count;
 }
 
@@ -37,9 +42,15 @@ Image Film::image() const {
   static_assert(channel_count == 3, "other spectra need a conversion to red, green and blue here");
   Image image{width_, height_, {}};
   image.pixels.reserve(3 * pixels_.size());
-  for (const Pixel& pixel : pixels_)
-    for (const double sum : pixel.sum)
-      image.pixels.push_back(pixel.count > 0 ? static_cast<float>(sum / pixel.count) : 0.0f);
+  image.alpha.reserve(pixels_.size());
+  image.depth.reserve(pixels_.size());
+  for (const Pixel& pixel : pixels_) {
+    const auto mean = [&](double sum) { return pixel.count > 0 ? static_cast<float>(sum / pixel.count) : 0.0f; };
+    for (const double sum : pixel.sum) image.pixels.push_back(mean(sum));
+    image.alpha.push_back(mean(pixel.alpha));
+    image.depth.push_back(pixel.coverage > 0 ? static_cast<float>(pixel.depth / pixel.coverage)
+                                             : std::numeric_limits<float>::infinity());
+  }
   return image;
 }
 

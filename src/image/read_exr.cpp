@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <span>
 #include <stdexcept>
 
 #include "image/check_exr_header.h"
@@ -58,18 +59,19 @@ const Imf::Channel* find_channel(const Imf::InputFile& file, const char* name) {
   return file.header().channels().findChannel(name);
 }
 
-// Has three channels of the file read into `values`, as three floats a pixel.
-void insert(Imf::FrameBuffer& frame, const Imf::InputFile& file, const ChannelNames& names,
+// Has channels of the file read into `values`, one float for each a pixel.
+void insert(Imf::FrameBuffer& frame, const Imf::InputFile& file, std::span<const char* const> names,
             std::vector<float>& values) {
   const Imath::Box2i window = file.header().dataWindow();
   const auto width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
-  values.resize(width * static_cast<std::size_t>(window.max.y - window.min.y + 1) * 3);
+  values.resize(width * static_cast<std::size_t>(window.max.y - window.min.y + 1) * names.size());
+  const std::size_t pixel = names.size() * sizeof(float);
   float* first = values.data();
   for (const char* name : names) {
     const Imf::Channel* channel = find_channel(file, name);
     if (!channel) throw std::runtime_error(std::string("it has no channel ") + name);
     if (channel->xSampling != 1 || channel->ySampling != 1) throw std::runtime_error("its channels are subsampled");
-    frame.insert(name, Imf::Slice::Make(Imf::FLOAT, first++, window, 3 * sizeof(float), 3 * sizeof(float) * width));
+    frame.insert(name, Imf::Slice::Make(Imf::FLOAT, first++, window, pixel, pixel * width));
   }
 }
 
@@ -110,6 +112,8 @@ Image decode_exr(std::string_view bytes) {
   Image image{window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, {}};
   Imf::FrameBuffer frame;
   insert(frame, file, colour_channels, image.pixels);
+  if (find_channel(file, alpha_channel)) insert(frame, file, {&alpha_channel, 1}, image.alpha);
+  if (find_channel(file, depth_channel)) insert(frame, file, {&depth_channel, 1}, image.depth);
   if (find_channel(file, variance_channels[0])) insert(frame, file, variance_channels, image.variance);
   file.setFrameBuffer(frame);
   file.readPixels(window.min.y, window.max.y);

@@ -25,7 +25,7 @@ ClassicIntegrator::ClassicIntegrator(const CompiledScene& scene, const Intersect
                                      const MediaAlongRay& media)
     : scene_(scene), intersector_(intersector), media_(media), visibility_(scene, intersector, media) {}
 
-Spectrum ClassicIntegrator::radiance(Ray ray, RandomStream& random) {
+Spectrum ClassicIntegrator::radiance(Ray ray, RandomStream& random, Foreground& seen) {
   Spectrum result, throughput = constant_spectrum(1);
   for (int scatterings = 0;; ++scatterings) {
     SurfaceHit hit;
@@ -33,7 +33,10 @@ Spectrum ClassicIntegrator::radiance(Ray ray, RandomStream& random) {
     if (is_hit) ray.t_max = hit.t;
     const bool scatters = scatterings < scene_.integrator.max_depth;
     Spectrum transmittance = constant_spectrum(1);
-    result = result + throughput * cross_media(ray, scatters, random, transmittance);
+    Foreground ahead;
+    result = result + throughput * cross_media(ray, scatters, random, transmittance, ahead);
+    if (is_hit) ahead.add(1 - ahead.coverage, hit.t);
+    if (scatterings == 0) seen = ahead;
     throughput = throughput * transmittance;
     if (!is_hit) return result + throughput * background(ray.direction);
     result = result + throughput * emitted_radiance(scene_, hit, ray.direction);
@@ -51,8 +54,10 @@ Spectrum ClassicIntegrator::radiance(Ray ray, RandomStream& random) {
   }
 }
 
-// What the media along the ray add, and in `transmittance` what they leave of what lies behind them.
-Spectrum ClassicIntegrator::cross_media(const Ray& ray, bool scatters, RandomStream& random, Spectrum& transmittance) {
+// What the media along the ray add, in `transmittance` what they leave of what lies behind them, and in `seen` where
+// the rest was stopped.
+Spectrum ClassicIntegrator::cross_media(const Ray& ray, bool scatters, RandomStream& random, Spectrum& transmittance,
+                                        Foreground& seen) {
   if (const auto place = media_.find({&ray, 1}, spans_, crossings_)) too_many_media_ = place;
   points_.clear();
   scatterings_.clear();
@@ -70,9 +75,12 @@ Spectrum ClassicIntegrator::cross_media(const Ray& ray, bool scatters, RandomStr
       place_steps(t_begin, length, first, std::min(count, first + batch_size), random);
       find_densities();
       for (std::size_t k = 0; k < steps_.size(); ++k) {
+        const float before = sum(transmittance);
         emitted = emitted + take_step(ray, k, scatters, transmittance);
-        if (max_value(transmittance) >= negligible_transmittance) continue;
-        transmittance = {};
+        const bool ends = max_value(transmittance) < negligible_transmittance;
+        if (ends) transmittance = {};
+        seen.add((before - sum(transmittance)) / channel_count, sample_t_[k]);
+        if (!ends) continue;
         return emitted + in_scattering(ray, random);
       }
     }

@@ -17,6 +17,7 @@
 
 #include <vector>
 
+#include "image/film.h"
 #include "render/lights.h"
 #include "render/visibility.h"
 
@@ -27,8 +28,8 @@ class ClassicIntegrator {
  public:
   ClassicIntegrator(const CompiledScene& scene, const Intersector& intersector, const MediaAlongRay& media);
 
-  // The radiance that arrives at the ray's origin.
-  Spectrum radiance(Ray ray, RandomStream& random);
+  // The radiance that arrives at the ray's origin; `seen` gets what the ray meets, its depth along the ray.
+  Spectrum radiance(Ray ray, RandomStream& random, Foreground& seen);
 
   // A place where more than max_active_media media overlap, once a ray has met one.
   std::optional<kernel::vec3> too_many_media() const {
@@ -49,7 +50,7 @@ class ClassicIntegrator {
     std::size_t first, last;  // in scatterings_
   };
 
-  Spectrum cross_media(const Ray& ray, bool scatters, RandomStream& random, Spectrum& transmittance);
+  Spectrum cross_media(const Ray& ray, bool scatters, RandomStream& random, Spectrum& transmittance, Foreground& seen);
   void find_cuts();
   float longest_step(float t_begin, float t_end);
   void place_steps(float t_begin, float length, int first, int last, RandomStream& random);

@@ -42,7 +42,7 @@ class TileRenderer {
     if (volpath_) return volpath_->render_tile(tile, first, last, film);
     for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x)
-        for (int s = first; s < last; ++s) film.add(x, y, sample_pixel(scene_.crop.x0 + x, scene_.crop.y0 + y, s));
+        for (int s = first; s < last; ++s) add_sample(x, y, s, film);
   }
 
   std::optional<kernel::vec3> too_many_media() const {
@@ -55,14 +55,19 @@ class TileRenderer {
   }
 
  private:
-  // Of pixel (x, y) of the whole picture.
-  Spectrum sample_pixel(int x, int y, int index) {
-    RandomStream random(scene_, x, y, index);
+  // Of pixel (x, y) of the film.
+  void add_sample(int x, int y, int index, Film& film) {
+    const int picture_x = scene_.crop.x0 + x, picture_y = scene_.crop.y0 + y;
+    RandomStream random(scene_, picture_x, picture_y, index);
     const RandomStream::Pair place = random.next_pair();
     const FilterSample f = filter_.sample(place.u, place.v);
-    const double px = x + 0.5 + static_cast<double>(f.x), py = y + 0.5 + static_cast<double>(f.y);
+    const double px = picture_x + 0.5 + static_cast<double>(f.x), py = picture_y + 0.5 + static_cast<double>(f.y);
     const Ray ray = camera_ray(scene_.camera, px, py);
-    return f.weight * (classic_ ? classic_->radiance(ray, random) : reference_->radiance(ray, random));
+    Foreground foreground;
+    const Spectrum radiance =
+        classic_ ? classic_->radiance(ray, random, foreground) : reference_->radiance(ray, random, foreground);
+    foreground.depth *= dot(ray.direction, camera_axis(scene_.camera));
+    film.add(x, y, radiance, foreground, f.weight);
   }
 
   const CompiledScene& scene_;

@@ -17,7 +17,7 @@ float exponential(float rate, RandomStream& random) { return -kernel::log_natura
 
 }  // namespace
 
-Spectrum ReferenceIntegrator::radiance(Ray ray, RandomStream& random) {
+Spectrum ReferenceIntegrator::radiance(Ray ray, RandomStream& random, Foreground& seen) {
   Spectrum result, throughput = constant_spectrum(1);
   Departure departure;
   for (int scatterings = 0;; ++scatterings) {
@@ -28,6 +28,8 @@ Spectrum ReferenceIntegrator::radiance(Ray ray, RandomStream& random) {
     Spectrum emitted;
     const bool collides = fly(ray, random, throughput, emitted, collision);
     result = result + emitted;
+    if (scatterings == 0 && (collides || is_hit))
+      seen.add(1, collides ? length(collision.position - ray.origin) : hit.t);
     if (!collides) result = result + throughput * light_met(ray, is_hit ? &hit : nullptr, departure);
     if (scatterings == scene_.integrator.max_depth || (!collides && !is_hit)) return result;
 

@@ -18,6 +18,7 @@
 
 #include <vector>
 
+#include "image/film.h"
 #include "render/lights.h"
 #include "render/media_along_ray.h"
 
@@ -29,8 +30,8 @@ class ReferenceIntegrator {
   ReferenceIntegrator(const CompiledScene& scene, const Intersector& intersector, const MediaAlongRay& media)
       : scene_(scene), intersector_(intersector), media_(media) {}
 
-  // The radiance that arrives at the ray's origin.
-  Spectrum radiance(Ray ray, RandomStream& random);
+  // The radiance that arrives at the ray's origin; `seen` gets what the ray meets, its depth along the ray.
+  Spectrum radiance(Ray ray, RandomStream& random, Foreground& seen);
 
   // A place where more than max_active_media media overlap, once a ray has met one.
   std::optional<kernel::vec3> too_many_media() const { return too_many_media_; }

@@ -44,6 +44,7 @@ VolpathIntegrator::VolpathIntegrator(const CompiledScene& scene, const Intersect
     : scene_(scene),
       intersector_(intersector),
       filter_(filter),
+      axis_(camera_axis(scene.camera)),
       aim_(make_aim(scene, media)),
       last_depth_(scene.integrator.max_depth - (paths_meet_light(scene) ? 0 : 1)),
       media_(scene, intersector, media),
@@ -120,6 +121,7 @@ void VolpathIntegrator::render_tile(const PixelBox& pixels, int first, int last,
   const auto samples = static_cast<std::uint32_t>(last - first);
   Tile tile{pixels, first, last, static_cast<std::uint32_t>(pixels.width() * pixels.height()) * samples, 0};
   sums_.assign(tile.sample_count, {});
+  foregrounds_.assign(tile.sample_count, {});
   filter_weights_.resize(tile.sample_count);
   for (idle_.clear(); idle_.size() < path_count;) idle_.push_back(static_cast<std::uint32_t>(idle_.size()));
   for (;;) {
@@ -141,7 +143,8 @@ void VolpathIntegrator::render_tile(const PixelBox& pixels, int first, int last,
   std::uint32_t at = 0;
   for (int y = pixels.y0; y < pixels.y1; ++y)
     for (int x = pixels.x0; x < pixels.x1; ++x)
-      for (std::uint32_t s = 0; s < samples; ++s, ++at) film.add(x, y, filter_weights_[at] * sums_[at]);
+      for (std::uint32_t s = 0; s < samples; ++s, ++at)
+        film.add(x, y, sums_[at], foregrounds_[at], filter_weights_[at]);
 }
 
 // Fills idle paths with new samples, once there are many of them or nothing else is left to do.
@@ -236,15 +239,21 @@ void VolpathIntegrator::end_flights() {
       }
     const bool has_surface = has_surfaces && hits_[i].shape >= 0;
     const float passed = paths_.flight.passed[i];
+    float share = 1;  // of the path, that goes on
     if (passed > 0 && has_surface) {
       // Two paths would have to go on; one of them does.
       if (kernel::random_uniform(paths_.ray.key[i], paths_.ray.pixel[i], paths_.ray.sample[i], 0x80000001u) < passed)
         paths_.flight.medium[i] = no_medium;
     } else if (passed > 0) {
       see_environment(i, passed);
-      for (float* throughput : paths_.throughput) throughput[i] *= 1 - passed;
+      share = 1 - passed;
+      for (float* throughput : paths_.throughput) throughput[i] *= share;
     }
-    if (paths_.flight.medium[i] != no_medium) continue;
+    const bool collides = paths_.flight.medium[i] != no_medium;
+    if (paths_.depth[i] == 0 && (collides || has_surface))
+      foregrounds_[paths_.target[i]].add(
+          share, dot(at(paths_.ray.direction, i), axis_) * (collides ? paths_.flight.t[i] : hits_[i].t));
+    if (collides) continue;
     if (has_surface) {
       meet_surface(i);
     } else {

@@ -76,6 +76,7 @@ class VolpathIntegrator {
   const CompiledScene& scene_;
   const Intersector& intersector_;
   const Filter& filter_;
+  const kernel::vec3 axis_;  // the camera's
   const Aim aim_;
   const int last_depth_;  // paths that have been scattered more often meet no light any more
   MediumTasks media_, shadow_media_;
@@ -95,6 +96,7 @@ class VolpathIntegrator {
 
   std::vector<std::uint32_t> idle_;  // paths that are to be started
   std::vector<Spectrum> sums_;       // by sample of the tile
+  std::vector<Foreground> foregrounds_;
   std::vector<float> filter_weights_;
   std::vector<Ray> shadow_rays_;
   std::vector<std::uint8_t> blocked_;

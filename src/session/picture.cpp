@@ -7,7 +7,8 @@ namespace brume {
 
 void Picture::write(const std::string& path) const {
   with_public_errors([&] {
-    write_image(path, Image{width, height, pixels, variance}, metadata ? metadata->image : ImageMetadata{});
+    write_image(path, Image{width, height, pixels, variance, alpha, depth},
+                metadata ? metadata->image : ImageMetadata{});
   });
 }
 

@@ -152,6 +152,8 @@ Picture make_picture(const Film& film, const CompiledScene& scene, const SceneDe
   picture.width = image.width;
   picture.height = image.height;
   picture.pixels = std::move(image.pixels);
+  picture.alpha = std::move(image.alpha);
+  picture.depth = std::move(image.depth);
   if (options.variance) picture.variance = film.variance();
   picture.samples_per_pixel = film.samples_per_pixel();
   picture.partial = partial;
@@ -168,7 +170,7 @@ Picture render_description(const SceneDescription& description, const RenderOpti
   apply_instruction_set_choice();
   const int samples = options.seconds > 0 ? options.max_samples : description.sampler.pixel_samples;
   if (options.variance && samples < 2)
-    throw Error("the variance can be estimated from two samples per pixel on, not from one");
+    fail("the variance can be estimated from two samples per pixel on, not from one");
   const CompiledScene scene = compile_scene(description, thread_count(options.threads), warnings);
   const std::unique_ptr<Backend> backend = make_cpu_backend();
   backend->prepare(scene);

@@ -75,6 +75,27 @@ TEST(ImageFiles, TheVarianceIsALayerOfFloatsInExr) {
   EXPECT_THAT(read_image(folder.file("a.pfm")).variance, IsEmpty());
 }
 
+TEST(ImageFiles, AlphaAndDepthAreChannelsInExr) {
+  const TemporaryFolder folder;
+  Image image = test_image(3, 20);
+  for (int i = 0; i < 60; ++i) {
+    image.alpha.push_back(static_cast<float>(i) / 64);
+    image.depth.push_back(1e6f + static_cast<float>(i));  // more than a half holds
+  }
+  image.depth[7] = std::numeric_limits<float>::infinity();
+  ImageMetadata metadata = test_metadata();
+  for (const bool half : {false, true}) {
+    metadata.half = half;
+    write_image(folder.file("a.exr"), image, metadata);
+    const Image back = read_image(folder.file("a.exr"));
+    EXPECT_EQ(back.alpha, image.alpha);
+    EXPECT_EQ(back.depth, image.depth);
+    const Imf::InputFile file(folder.file("a.exr").c_str());
+    EXPECT_EQ(file.header().channels()["A"].type, half ? Imf::HALF : Imf::FLOAT);
+    EXPECT_EQ(file.header().channels()["Z"].type, Imf::FLOAT);
+  }
+}
+
 TEST(ImageFiles, HalvesAreRoundedAndStayFinite) {
   const TemporaryFolder folder;
   Image image{2, 1, {0.1f, 1e6f, -1e6f, 65504, 1, 0}};
