@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "brume/scene.h"
+#include "brume/statistics.h"
 
 namespace brume {
 
@@ -15,6 +16,7 @@ struct Progress {
   double fraction = 0;  // of the whole, 0 to 1
   double elapsed_seconds = 0;
   double remaining_seconds = -1;  // below 0: not known yet
+  double samples_per_second = 0;  // of all pixels together, so far
 };
 
 struct Picture;
@@ -52,11 +54,13 @@ struct Picture {
   double seconds = 0;
   std::int64_t invalid_samples = 0;  // samples that were not finite and were left out
   std::vector<std::string> warnings;
+  Statistics statistics;
 
-  // Writes .exr, .png (sRGB) or .pfm by the suffix of `path`, whole or not at all. Into an .exr go
+  // Writes .exr, .png (sRGB, opaque) or .pfm by the suffix of `path`, whole or not at all. The values of a .png are
+  // multiplied by 2^exposure. Into an .exr go
   // alpha as channel A and depth as Z, which has 32 bits always; and the variance as the layer Variance (Variance.R,
   // .G, .B), where all values are 32-bit floats then. Throws Error.
-  void write(const std::string& path) const;
+  void write(const std::string& path, double exposure = 0) const;
   // Throws Error unless write(path) can be expected to work: a known suffix, and a folder that can be written to. To be
   // called before a long render.
   static void check_output(const std::string& path);

@@ -68,6 +68,12 @@ std::vector<float> Film::variance() const {
   return variance;
 }
 
+std::int64_t Film::samples() const {
+  std::int64_t samples = 0;
+  for (const Pixel& pixel : pixels_) samples += pixel.count + pixel.invalid;
+  return samples;
+}
+
 std::int64_t Film::invalid_samples() const {
   std::int64_t invalid = 0;
   for (const Pixel& pixel : pixels_) invalid += pixel.invalid;

@@ -38,6 +38,8 @@ class Film {
   // The variances of these means, estimated from the samples, as Image::variance has them: with n valid samples of mean
   // m and mean square s, (s - m^2) / (n - 1); NaN where n < 2. True to the picture where samples are independent.
   std::vector<float> variance() const;
+  // Of all pixels together; the former counts the latter too.
+  std::int64_t samples() const;
   std::int64_t invalid_samples() const;
   // The number of samples that every pixel has had at least, invalid ones included.
   int samples_per_pixel() const;

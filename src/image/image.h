@@ -34,6 +34,7 @@ struct ImageMetadata {
   int x = 0, y = 0, whole_width = 0, whole_height = 0;
   bool partial = false;  // not all of the samples asked for
   bool half = true;      // EXR only: 16-bit floats
+  double exposure = 0;   // PNG only: in stops; values are multiplied by 2^exposure
   std::string software;
 };
 

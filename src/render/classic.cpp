@@ -30,6 +30,8 @@ Spectrum ClassicIntegrator::radiance(Ray ray, RandomStream& random, Foreground& 
   for (int scatterings = 0;; ++scatterings) {
     SurfaceHit hit;
     const bool is_hit = intersector_.nearest_surface(ray, hit);
+    ++counts_.rays;
+    counts_.surface_hits += is_hit;
     if (is_hit) ray.t_max = hit.t;
     const bool scatters = scatterings < scene_.integrator.max_depth;
     Spectrum transmittance = constant_spectrum(1);
@@ -151,6 +153,7 @@ void ClassicIntegrator::find_densities() {
       sample_density(scene_.grids[static_cast<std::size_t>(medium.grid)].view(), medium.linear, span.entry_index,
                      span.direction_index, span.t_begin, sample_t_, density);
     }
+    if (medium.grid >= 0) counts_.look_ups += static_cast<std::int64_t>(steps_.size());
     for (float& d : density) d *= static_cast<float>(span.count);
   }
 }
@@ -225,6 +228,7 @@ Spectrum ClassicIntegrator::in_scattering(const Ray& ray, RandomStream& random) 
       light_samples_.push_back(sample_light(scene_, light, point.position, nullptr, random));
       shadow_rays_.push_back(light_samples_.back().ray);
     }
+    counts_.shadow_rays += static_cast<std::int64_t>(shadow_rays_.size());
     visibility_.find(shadow_rays_, random, arriving_);
     for (std::size_t i = 0; i < points_.size(); ++i) {
       // Light travels against the shadow ray, and is scattered against the camera's: the two signs cancel.
@@ -253,6 +257,7 @@ Spectrum ClassicIntegrator::direct_light(const Ray& ray, const SurfaceHit& hit, 
     light_samples_.push_back(s);
     shadow_rays_.push_back(started_at(start, s.ray));
   }
+  counts_.shadow_rays += static_cast<std::int64_t>(shadow_rays_.size());
   visibility_.find(shadow_rays_, random, arriving_);
   for (std::size_t i = 0; i < shadow_rays_.size(); ++i) {
     const vec3 to_light = light_samples_[i].ray.direction;

@@ -19,6 +19,7 @@
 
 #include "image/film.h"
 #include "render/lights.h"
+#include "render/render_counts.h"
 #include "render/visibility.h"
 
 namespace brume {
@@ -30,6 +31,8 @@ class ClassicIntegrator {
 
   // The radiance that arrives at the ray's origin; `seen` gets what the ray meets, its depth along the ray.
   Spectrum radiance(Ray ray, RandomStream& random, Foreground& seen);
+
+  const RenderCounts& counts() const { return counts_; }
 
   // A place where more than max_active_media media overlap, once a ray has met one.
   std::optional<kernel::vec3> too_many_media() const {
@@ -80,6 +83,7 @@ class ClassicIntegrator {
   std::vector<LightSample> light_samples_;
   std::vector<Ray> shadow_rays_;
   std::vector<Spectrum> arriving_;
+  RenderCounts counts_;
 };
 
 }  // namespace brume

@@ -50,8 +50,8 @@ class TileRenderer {
            : reference_ ? reference_->too_many_media()
                         : volpath_->too_many_media();
   }
-  std::int64_t majorant_violations() const {
-    return volpath_ ? volpath_->majorant_violations() : reference_ ? reference_->majorant_violations() : 0;
+  RenderCounts counts() const {
+    return volpath_ ? volpath_->counts() : reference_ ? reference_->counts() : classic_->counts();
   }
 
  private:
@@ -84,10 +84,10 @@ class CpuBackend : public Backend {
     filter_ = std::make_unique<Filter>(scene.filter);
     intersector_ = std::make_unique<Intersector>(scene);
     media_ = std::make_unique<MediaAlongRay>(scene, *intersector_);
-    majorant_violations_ = 0;
+    counts_ = {};
   }
 
-  std::int64_t majorant_violations() const override { return majorant_violations_; }
+  RenderCounts counts() const override { return counts_; }
 
   bool render(int first, int last, int threads, Film& film,
               const std::function<bool(double fraction)>& keep_going) override {
@@ -109,7 +109,7 @@ class CpuBackend : public Backend {
       ++done;
       if (worker == 0 && !keep_going(static_cast<double>(done) / tiles)) stopped = true;
     });
-    for (const auto& i : renderers) majorant_violations_ += i->majorant_violations();
+    for (const auto& i : renderers) counts_ += i->counts();
     for (const auto& i : renderers)
       if (const auto p = i->too_many_media())
         throw InputError("scene",
@@ -119,7 +119,7 @@ class CpuBackend : public Backend {
 
  private:
   const CompiledScene* scene_ = nullptr;
-  std::int64_t majorant_violations_ = 0;
+  RenderCounts counts_;
   std::unique_ptr<Filter> filter_;
   std::unique_ptr<Intersector> intersector_;
   std::unique_ptr<MediaAlongRay> media_;

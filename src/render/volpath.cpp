@@ -147,6 +147,16 @@ void VolpathIntegrator::render_tile(const PixelBox& pixels, int first, int last,
         film.add(x, y, sums_[at], foregrounds_[at], filter_weights_[at]);
 }
 
+RenderCounts VolpathIntegrator::counts() const {
+  RenderCounts counts = counts_;
+  for (const TrackCounts& tracking : {media_.counts(), shadow_media_.counts()}) {
+    counts.cells += tracking.steps;
+    counts.look_ups += tracking.look_ups;
+    counts.majorant_violations += tracking.majorant_violations;
+  }
+  return counts;
+}
+
 // Fills idle paths with new samples, once there are many of them or nothing else is left to do.
 void VolpathIntegrator::start_paths(Tile& tile) {
   const auto fresh = std::min(static_cast<std::uint32_t>(idle_.size()), tile.sample_count - tile.next);
@@ -232,6 +242,7 @@ void VolpathIntegrator::end_flights() {
   const bool has_surfaces = intersector_.has_surfaces();
   for (std::uint32_t i = 0; i < path_count; ++i) {
     if (!(paths_.ray.t_max[i] > 0)) continue;
+    ++counts_.rays;
     if (media_.is_chromatic())
       for (int c = 0; c < 3; ++c) {
         paths_.throughput[c][i] *= paths_.flight.weight[c][i];
@@ -253,8 +264,12 @@ void VolpathIntegrator::end_flights() {
     if (paths_.depth[i] == 0 && (collides || has_surface))
       foregrounds_[paths_.target[i]].add(
           share, dot(at(paths_.ray.direction, i), axis_) * (collides ? paths_.flight.t[i] : hits_[i].t));
-    if (collides) continue;
+    if (collides) {
+      ++counts_.collisions;
+      continue;
+    }
     if (has_surface) {
+      ++counts_.surface_hits;
       meet_surface(i);
     } else {
       see_environment(i, 1);
@@ -340,6 +355,7 @@ void VolpathIntegrator::make_room_for_shadow_rays(std::uint32_t more) {
 
 void VolpathIntegrator::gather_shadow_rays() {
   if (shadow_count_ == 0) return;
+  counts_.shadow_rays += shadow_count_;
   if (intersector_.has_surfaces()) {
     shadow_rays_.clear();
     for (std::uint32_t i = 0; i < shadow_count_; ++i)

@@ -17,6 +17,7 @@
 #include "image/filter.h"
 #include "render/light_table.h"
 #include "render/paths.h"
+#include "render/render_counts.h"
 #include "render/sample_points.h"
 #include "render/scatter.h"
 #include "render/surfaces.h"
@@ -38,9 +39,7 @@ class VolpathIntegrator {
   std::optional<kernel::vec3> too_many_media() const {
     return media_.too_many_media() ? media_.too_many_media() : shadow_media_.too_many_media();
   }
-  std::int64_t majorant_violations() const {
-    return media_.counts().majorant_violations + shadow_media_.counts().majorant_violations;
-  }
+  RenderCounts counts() const;
 
  private:
   struct Tile {
@@ -100,6 +99,7 @@ class VolpathIntegrator {
   std::vector<float> filter_weights_;
   std::vector<Ray> shadow_rays_;
   std::vector<std::uint8_t> blocked_;
+  RenderCounts counts_;  // but for those of tracking
 };
 
 }  // namespace brume

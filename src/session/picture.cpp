@@ -5,10 +5,11 @@
 
 namespace brume {
 
-void Picture::write(const std::string& path) const {
+void Picture::write(const std::string& path, double exposure) const {
   with_public_errors([&] {
-    write_image(path, Image{width, height, pixels, variance, alpha, depth},
-                metadata ? metadata->image : ImageMetadata{});
+    ImageMetadata file_metadata = metadata ? metadata->image : ImageMetadata{};
+    file_metadata.exposure = exposure;
+    write_image(path, Image{width, height, pixels, variance, alpha, depth}, file_metadata);
   });
 }
 

@@ -11,6 +11,7 @@
 #include "session/contents.h"
 #include "session/errors.h"
 #include "session/example_scene.h"
+#include "session/stopwatch.h"
 #include "volume/read_volume.h"
 
 namespace brume {
@@ -34,6 +35,18 @@ void check_crop_window(const FilmDescription& film) {
   if (const PixelBox crop = cropped_pixels(film); crop.width() < 1 || crop.height() < 1)
     fail(fmt::format("crop window {},{},{},{} holds no pixel of the {} x {} pixels", x0, x1, y0, y1, film.width,
                      film.height));
+}
+
+// Bounds in pixels as the crop window that has them.
+std::array<double, 4> window_of(const std::array<int, 4>& bounds, const FilmDescription& film) {
+  const auto [x0, x1, y0, y1] = bounds;
+  if (!(0 <= x0 && x0 < x1 && x1 <= film.width && 0 <= y0 && y0 < y1 && y1 <= film.height))
+    fail(
+        fmt::format("pixel bounds {},{},{},{}: must be x0,x1,y0,y1 with 0 <= x0 < x1 <= {} and 0 <= y0 < y1 <= {}, the "
+                    "size of the picture",
+                    x0, x1, y0, y1, film.width, film.height));
+  const double width = film.width, height = film.height;
+  return {x0 / width, x1 / width, y0 / height, y1 / height};
 }
 
 void check_integrator(const std::string& name) {
@@ -68,36 +81,42 @@ Scene::~Scene() = default;
 
 Scene Scene::load(const std::string& path, std::vector<std::string>& warnings) {
   return with_public_errors([&] {
+    const Stopwatch watch;
     const std::string s = suffix(path);
     if (is_volume_file(path)) return frame_volume(path);
     if (!is_scene_file(path))
       throw InputError(path,
                        fmt::format("{}; scenes are .pbrt or .pbrt.gz files, volumes {}",
                                    s.empty() ? "no suffix" : fmt::format("unknown suffix \"{}\"", s), volume_suffixes));
-    return Scene(std::make_unique<Contents>(Contents{read_description(path, warnings), {}, {}}));
+    SceneDescription description = read_description(path, warnings);
+    return Scene(std::make_unique<Contents>(Contents{std::move(description), {}, {}, watch.seconds()}));
   });
 }
 
 Scene Scene::frame_volume(const std::string& path, const std::string& grid) {
   return with_public_errors([&] {
+    const Stopwatch watch;
     if (!is_volume_file(path))
       throw InputError(path, fmt::format("not a volume file, whose suffix would be {}", volume_suffixes));
     FramedVolume framed = brume::frame_volume(path, grid);
-    return Scene(std::make_unique<Contents>(Contents{std::move(framed.scene), framed.framing, std::move(framed.note)}));
+    return Scene(std::make_unique<Contents>(
+        Contents{std::move(framed.scene), framed.framing, std::move(framed.note), watch.seconds()}));
   });
 }
 
-Scene Scene::example() { return Scene(std::make_unique<Contents>(Contents{example_scene(), {}, {}})); }
+Scene Scene::example() { return Scene(std::make_unique<Contents>(Contents{example_scene(), {}, {}, 0})); }
 
 void Scene::apply(const SceneOptions& options) {
   SceneDescription& scene = contents_->description;
   FilmDescription film = scene.film;
-  film.width = options.width.value_or(film.width);
-  film.height = options.height.value_or(film.height);
+  const auto draft = [&](int number) { return options.quick ? std::max(1, number / 4) : number; };
+  film.width = options.width.value_or(draft(film.width));
+  film.height = options.height.value_or(draft(film.height));
+  if (options.pixel_bounds) film.crop_window = window_of(*options.pixel_bounds, film);
   film.crop_window = options.crop_window.value_or(film.crop_window);
   if (options.width || options.height) check_resolution(film.width, film.height);
   check_crop_window(film);
-  const int samples = options.samples_per_pixel.value_or(scene.sampler.pixel_samples);
+  const int samples = options.samples_per_pixel.value_or(draft(scene.sampler.pixel_samples));
   if (options.samples_per_pixel && (samples < 1 || samples > max_samples))
     fail(fmt::format("{} samples per pixel are out of range: from 1 to {}", samples, max_samples));
   if (options.integrator) check_integrator(*options.integrator);

@@ -1,7 +1,9 @@
 // What the program writes: the files asked for, the same bits whenever the same is asked, nothing else.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <png.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
@@ -118,6 +120,75 @@ TEST_F(Outputs, ACropWindowHasThePixelsOfTheWholePicture) {
   EXPECT_EQ(bytes("again.pfm"), bytes("part.pfm"));
   expect_success({"b.pbrt", "--cropwindow", "0,1,0,1", "-o", "again.pfm"});
   EXPECT_EQ(bytes("again.pfm"), bytes("whole.pfm"));
+}
+
+TEST_F(Outputs, PixelBoundsAreTheCropWindowInPixels) {
+  expect_success({"a.pbrt", "--pixelbounds", "3,11,5,12", "-o", "bounds.pfm"});
+  EXPECT_THAT(error_, HasSubstr("bounds.pfm: 8 x 7 pixels, "));
+  expect_success({"a.pbrt", "--cropwindow", "0.1875,0.6875,0.41666667,1", "-o", "window.pfm"});
+  EXPECT_EQ(bytes("bounds.pfm"), bytes("window.pfm"));
+}
+
+TEST_F(Outputs, QuickIsAQuarterOfWhatIsNotSet) {
+  expect_success({"a.pbrt", "--quick", "-o", "a.pfm"});
+  EXPECT_THAT(error_, HasSubstr("a.pfm: 4 x 3 pixels, 1 samples per pixel"));
+  expect_success({"a.pbrt", "--resolution", "16x12", "--quick", "-o", "a.pfm"});
+  EXPECT_THAT(error_, HasSubstr("a.pfm: 16 x 12 pixels, 1 samples per pixel"));
+  expect_success({"a.pbrt", "--spp", "9", "--quick", "-o", "a.pfm"});
+  EXPECT_THAT(error_, HasSubstr("a.pfm: 4 x 3 pixels, 9 samples per pixel"));
+}
+
+// A stop doubles. Only .png files have it.
+TEST_F(Outputs, ExposureIsForPngAlone) {
+  const auto first_value = [&](const std::string& name) {
+    png_image png{};
+    png.version = PNG_IMAGE_VERSION;
+    EXPECT_TRUE(png_image_begin_read_from_file(&png, folder_.file(name).c_str()));
+    png.format = PNG_FORMAT_RGB;
+    std::vector<png_byte> values(PNG_IMAGE_SIZE(png));
+    EXPECT_TRUE(png_image_finish_read(&png, nullptr, values.data(), 0, nullptr));
+    return static_cast<int>(values.front());
+  };
+  expect_success({"a.pbrt", "-o", "a.pfm", "-o", "a.png"});
+  expect_success({"a.pbrt", "--exposure", "1", "-o", "b.pfm", "-o", "b.png"});
+  expect_success({"a.pbrt", "--exposure", "-1.5", "-o", "c.png"});
+  const float value = read_image(folder_.file("a.pfm")).pixels.front();
+  EXPECT_EQ(first_value("a.png"), srgb_from_linear(value));
+  EXPECT_EQ(first_value("b.png"), srgb_from_linear(2 * value));
+  EXPECT_EQ(first_value("c.png"), srgb_from_linear(std::exp2(-1.5f) * value));
+  EXPECT_EQ(bytes("a.pfm"), bytes("b.pfm"));
+}
+
+// Of the value of a member in the file.
+double member(const std::string& json, const std::string& name) {
+  const std::size_t at = json.find('"' + name + "\": ");
+  EXPECT_NE(at, std::string::npos) << name;
+  return at == std::string::npos ? -1 : std::strtod(json.c_str() + at + name.size() + 4, nullptr);
+}
+
+TEST_F(Outputs, StatisticsCountWhatWasDone) {
+  for (const std::string integrator : {"classic", "reference", "volpath"}) {
+    expect_success({"a.pbrt", "--integrator", integrator, "-o", "a.pfm", "--stats", "--stats-json", "s.json"});
+    for (const char* part : {"samples", "384", "shadow rays", "look-ups of density", "rendering", "memory"})
+      EXPECT_THAT(error_, HasSubstr(part));
+    const std::string json = bytes("s.json");
+    EXPECT_THAT(json, HasSubstr("\"integrator\": \"" + integrator + "\""));
+    EXPECT_EQ(member(json, "samples"), 16 * 12 * 2);
+    // One ray a sample, and one more for each scattering at the most: maxdepth is 1.
+    const double rays = member(json, "rays"), collisions = member(json, "collisions");
+    EXPECT_GE(rays, 384);
+    EXPECT_LE(rays, 384 + collisions);
+    EXPECT_GT(member(json, "shadow_rays"), 0);
+    EXPECT_GT(member(json, "look_ups"), 0);
+    if (integrator == "classic")
+      EXPECT_EQ(collisions, 0);
+    else
+      EXPECT_GT(collisions, 20);
+    EXPECT_EQ(member(json, "majorant_violations"), 0);
+    EXPECT_GT(member(json, "volume_bytes"), 512 * 2);
+    EXPECT_GT(member(json, "peak_bytes"), 1e6);
+    EXPECT_GT(member(json, "rendering_seconds"), 0);
+  }
 }
 
 TEST_F(Outputs, OtherInstructionSetsRender) {
