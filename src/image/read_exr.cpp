@@ -3,7 +3,6 @@
 #include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfMatrixAttribute.h>
@@ -16,30 +15,12 @@
 
 #include "image/check_exr_header.h"
 #include "image/exr_channels.h"
+#include "image/exr_memory_stream.h"
 #include "image/formats.h"
 
 namespace brume {
 
 namespace {
-
-class MemoryStream : public Imf::IStream {
- public:
-  explicit MemoryStream(std::string_view bytes) : Imf::IStream(""), bytes_(bytes) {}
-  bool read(char to[], int count) override {
-    const auto size = static_cast<std::size_t>(count);
-    if (count < 0 || position_ > bytes_.size() || size > bytes_.size() - position_)
-      throw std::runtime_error("the file ends too early");
-    std::copy_n(bytes_.data() + position_, size, to);
-    position_ += size;
-    return position_ < bytes_.size();
-  }
-  std::uint64_t tellg() override { return position_; }
-  void seekg(std::uint64_t position) override { position_ = position; }
-
- private:
-  std::string_view bytes_;
-  std::size_t position_ = 0;
-};
 
 template <class Attribute, class Value>
 void find(const Imf::Header& header, const char* name, Value& value) {
@@ -79,7 +60,7 @@ void insert(Imf::FrameBuffer& frame, const Imf::InputFile& file, std::span<const
 
 ImageMetadata decode_exr_metadata(std::string_view bytes) {
   check_exr_header(bytes);
-  MemoryStream stream(bytes);
+  ExrMemoryStream stream(bytes);
   const Imf::InputFile file(stream);
   const Imf::Header& header = file.header();
   ImageMetadata metadata;
@@ -106,7 +87,7 @@ ImageMetadata decode_exr_metadata(std::string_view bytes) {
 
 Image decode_exr(std::string_view bytes) {
   check_exr_header(bytes);
-  MemoryStream stream(bytes);
+  ExrMemoryStream stream(bytes);
   Imf::InputFile file(stream);
   const Imath::Box2i window = file.header().dataWindow();
   Image image{window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, {}};

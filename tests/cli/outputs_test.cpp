@@ -138,6 +138,17 @@ TEST_F(Outputs, QuickIsAQuarterOfWhatIsNotSet) {
   EXPECT_THAT(error_, HasSubstr("a.pfm: 4 x 3 pixels, 9 samples per pixel"));
 }
 
+TEST_F(Outputs, InfoShowsAPicture) {
+  expect_success({"a.pbrt", "--pixelbounds", "3,11,5,12", "--seed", "7", "-o", "a.exr"});
+  const std::string shown = run(folder_.path(), {"info", "a.exr"}).out;
+  for (const char* part :
+       {"picture of 8 x 7 pixels", "data window (3, 5) to (10, 11), display window (0, 0) to (15, 11)",
+        "channels: A half, B half, G half, R half, Z float\n", "samplesPerPixel: 2\n", "seed: 7\n", "partial: 0\n",
+        "software: Brume " BRUME_VERSION "\n", "worldToCamera: (1 0 0 0) (0 1 0 0) (0 0 -1 0) (0 0 5 1)\n",
+        "worldToNDC: (", "renderTimeSeconds: "})
+    EXPECT_THAT(shown, HasSubstr(part));
+}
+
 // A stop doubles. Only .png files have it.
 TEST_F(Outputs, ExposureIsForPngAlone) {
   const auto first_value = [&](const std::string& name) {
