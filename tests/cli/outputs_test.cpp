@@ -2,8 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <png.h>
+#include <sys/resource.h>
 
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 
@@ -239,6 +241,51 @@ TEST_F(Outputs, BadOutputsAreRefusedBeforeRendering) {
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.error, HasSubstr("folder.pfm: error: cannot be written: it is a folder"));
   EXPECT_THAT(folder_.names(), ElementsAre("a.pbrt", "folder.pfm"));
+}
+
+// The limit on a file's size, which programs inherit, stands in for a full disk: writing fails after some bytes, when
+// all is rendered.
+TEST_F(Outputs, AFullDiskLeavesNothingBehind) {
+  write_bytes_to(folder_.file("old.pfm"), "old");
+  const auto run_with_a_small_disk = [&](const std::vector<std::string>& arguments) {
+    rlimit before{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    const rlimit small{8192, before.rlim_max};
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    setrlimit(RLIMIT_FSIZE, &small);
+    const Outcome outcome = run(folder_.path(), arguments);
+    setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+    EXPECT_EQ(outcome.exit_code, 1);
+    return outcome.error;
+  };
+  EXPECT_EQ(run_with_a_small_disk({"a.pbrt", "--resolution", "64x48", "--quiet", "-o", "old.pfm"}),
+            "old.pfm: error: cannot be written: File too large\n");
+  EXPECT_EQ(run_with_a_small_disk({"make", "cloud", "--size", "48", "--quiet", "-o", "c.vdb"}),
+            "c.vdb: error: cannot be written: File too large\n");
+  EXPECT_EQ(bytes("old.pfm"), "old");
+  EXPECT_THAT(folder_.names(), ElementsAre("a.pbrt", "old.pfm"));
+}
+
+TEST_F(Outputs, AFullStandardOutputIsAnError) {
+  const std::string command = "cd '" + folder_.path() + "' && " BRUME_PROGRAM " info a.pbrt > /dev/full 2> error";
+  EXPECT_NE(std::system(command.c_str()), 0);
+  EXPECT_EQ(bytes("error"), "error: the standard output cannot be written: No space left on device\n");
+}
+
+// A terminal sees the progress, with speed; a file sees only what stays.
+TEST_F(Outputs, ProgressIsShownOnATerminal) {
+  const std::string render = BRUME_PROGRAM " a.pbrt --resolution 64x48 --time 1.2 -o a.pfm";
+  const std::string on_terminal = "script --quiet --return --command '" + render + "' seen < /dev/null > /dev/null";
+  if (std::system("command -v script > /dev/null") != 0) GTEST_SKIP() << "there is no program script";
+  EXPECT_EQ(std::system(("cd '" + folder_.path() + "' && " + on_terminal).c_str()), 0);
+  const std::string seen = bytes("seen");
+  for (const char* part :
+       {"\rRendering:   0 %, 0:00 elapsed", " remaining, ", " samples a second\033[K", "\r\033[Ka.pfm: "})
+    EXPECT_THAT(seen, HasSubstr(part));
+  expect_success({"a.pbrt", "--resolution", "64x48", "--time", "0.2", "-o", "a.pfm"});
+  EXPECT_THAT(error_, Not(HasSubstr("Rendering")));
+  EXPECT_THAT(error_, Not(HasSubstr("\r")));
 }
 
 // The same bits from the file, from it packed, and from either on the standard input.
