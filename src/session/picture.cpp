@@ -15,8 +15,8 @@ void Picture::write(const std::string& path, double exposure) const {
 
 void Picture::check_output(const std::string& path) {
   with_public_errors([&] {
-    check_image_suffix(path);
     check_writable(path);
+    check_image_suffix(path);
   });
 }
 

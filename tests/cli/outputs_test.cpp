@@ -240,6 +240,7 @@ TEST_F(Outputs, BadOutputsAreRefusedBeforeRendering) {
   const Outcome outcome = run(folder_.path(), {"a.pbrt", "-o", "b.pfm", "-o", "folder.pfm"});
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.error, HasSubstr("folder.pfm: error: cannot be written: it is a folder"));
+  EXPECT_THAT(run(folder_.path(), {"a.pbrt", "-o", "."}).error, HasSubstr("it is a folder"));
   EXPECT_THAT(folder_.names(), ElementsAre("a.pbrt", "folder.pfm"));
 }
 
