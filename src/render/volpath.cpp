@@ -240,9 +240,10 @@ void VolpathIntegrator::place_lights_along_flights() {
 // What becomes of paths that met no medium.
 void VolpathIntegrator::end_flights() {
   const bool has_surfaces = intersector_.has_surfaces();
+  std::uint32_t rays = 0, collisions = 0, surface_hits = 0;
   for (std::uint32_t i = 0; i < path_count; ++i) {
     if (!(paths_.ray.t_max[i] > 0)) continue;
-    ++counts_.rays;
+    ++rays;
     if (media_.is_chromatic())
       for (int c = 0; c < 3; ++c) {
         paths_.throughput[c][i] *= paths_.flight.weight[c][i];
@@ -264,18 +265,19 @@ void VolpathIntegrator::end_flights() {
     if (paths_.depth[i] == 0 && (collides || has_surface))
       foregrounds_[paths_.target[i]].add(
           share, dot(at(paths_.ray.direction, i), axis_) * (collides ? paths_.flight.t[i] : hits_[i].t));
-    if (collides) {
-      ++counts_.collisions;
-      continue;
-    }
+    collisions += collides;
+    if (collides) continue;
     if (has_surface) {
-      ++counts_.surface_hits;
+      ++surface_hits;
       meet_surface(i);
     } else {
       see_environment(i, 1);
       paths_.ray.t_max[i] = 0;
     }
   }
+  counts_.rays += rays;
+  counts_.collisions += collisions;
+  counts_.surface_hits += surface_hits;
 }
 
 // What contributions are divided by: the balance heuristic over heroes.
