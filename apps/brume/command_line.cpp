@@ -67,6 +67,17 @@ std::int64_t parse_number(const std::string& option, const std::string& text, st
   return value;
 }
 
+double parse_real(const std::string& option, const std::string& text, double lo, double hi) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !(value >= lo && value <= hi)) {
+    char range[64];
+    std::snprintf(range, sizeof range, "%g to %g", lo, hi);
+    throw UsageError(option + ": \"" + text + "\" is not a number from " + range);
+  }
+  return value;
+}
+
 std::pair<std::string, double> parse_setting(const std::string& option, const std::string& text) {
   const std::size_t equals = text.find('=');
   double value = 0;

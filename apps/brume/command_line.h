@@ -21,6 +21,8 @@ void parse(CLI::App& app, std::vector<std::string> arguments);
 
 // A whole number from lo to hi, given for `option`; throws UsageError.
 std::int64_t parse_number(const std::string& option, const std::string& text, std::int64_t lo, std::int64_t hi);
+// A number from lo to hi, given for `option`; throws UsageError.
+double parse_real(const std::string& option, const std::string& text, double lo, double hi);
 // NAME=VALUE, a parameter's name and a number; `option` is what it was given for, with a space, or "". Throws
 // UsageError.
 std::pair<std::string, double> parse_setting(const std::string& option, const std::string& text);

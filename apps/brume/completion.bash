@@ -45,10 +45,10 @@ _brume() {
   # bash takes = for a word of its own: what follows it is a number, which nobody can guess.
   if [[ $current == '=' || $previous == '=' ]]; then return; fi
   case $previous in
-    -o | --output | --write-scene) _brume_files && return ;;
+    -o | --output | --write-scene | --stats-json) _brume_files && return ;;
     --integrator) _brume_words classic reference volpath && return ;;
     --set) _brume_words "$(_brume_volumes "$program" "${COMP_WORDS[2]-}")" && return ;;
-    --spp | --time | --seed | --nthreads | --resolution | --cropwindow | --grid | --size | --sparse | --block | --step) return ;;
+    --spp | --time | --seed | --nthreads | --resolution | --cropwindow | --pixelbounds | --exposure | --grid | --size | --sparse | --block | --step) return ;;
   esac
   if [[ $current == -* ]]; then
     _brume_words "$(_brume_options "$program" ${command:+"$command"})"

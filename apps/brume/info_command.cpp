@@ -15,8 +15,12 @@ int info_command(const std::vector<std::string>& arguments) {
   parse(app, arguments);
   if (help) {
     std::puts(
-        "Usage: brume info FILE\n\n"
-        "Shows what a scene (.pbrt), a volume (.vdb, .nvdb, .vol) or a picture (.exr, .pfm) holds.");
+        "Usage: brume info FILE     what a file holds\n\n"
+        "  of a scene (.pbrt)             film, camera, integrator, media, shapes and lights\n"
+        "  of a volume (.vdb, .nvdb, .vol)    each grid: type, place, densities, the memory that it takes\n"
+        "                                 here, and how dense it is, as a help to choose \"scale\"\n"
+        "  of a picture (.exr, .pfm)      size, windows, channels, and what it says of how it was made\n\n"
+        "  brume info smoke.vdb");
     return 0;
   }
   if (file.empty()) throw UsageError("brume info needs the name of a file");

@@ -1,5 +1,7 @@
 // The program brume: reads its arguments, calls libbrume, shows what comes back.
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <map>
 
@@ -30,11 +32,13 @@ int run(std::vector<std::string> arguments) {
 
 int main(int argc, char** argv) {
   try {
-    return run({argv + 1, argv + argc});
-  } catch (const UsageError& e) {
-    std::fprintf(stderr, "brume: %s\n", e.what());
-  } catch (const std::exception& e) {
+    const int exit_code = run({argv + 1, argv + argc});
+    if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return exit_code;
+    std::fprintf(stderr, "error: the standard output cannot be written: %s\n", std::strerror(errno));
+  } catch (const brume::Error& e) {
     std::fprintf(stderr, "%s\n", e.what());
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "error: %s\n", e.what());
   }
   return 1;
 }

@@ -18,43 +18,52 @@ namespace {
 constexpr int exit_interrupted = 130;  // what shells give for a program that SIGINT ended
 
 const char* const help_text =
-    R"(Usage: brume SCENE|VOLUME [options]     render a scene (.pbrt) or a volume (.vdb, .nvdb, .vol)
-       brume --example [options]         render the built-in example, a cloud over a ground
-       brume info FILE                   show what a scene, a volume or a picture holds
-       brume make KIND -o FILE.vdb       make a cloud, smoke, fog or fire
-       brume phase [NAME]                list the phase functions, or show one
-       brume compare A B [REF]           how far two pictures are apart
-       brume bench                       how fast this machine is
+    R"(Usage: brume SCENE|VOLUME [options]   render a .pbrt, .vdb, .nvdb or .vol file
+       brume --example [options]       render the built-in example, a cloud
+       brume info FILE                 what a scene, a volume or a picture holds
+       brume make KIND -o FILE.vdb     make a cloud, smoke, fog or fire
+       brume phase [NAME]              list the phase functions, or show one
+       brume compare A B [REF]         how far two pictures are apart
+       brume bench                     how fast this machine is
 
-  -o, --output FILE     where the picture goes: .png, .exr or .pfm; may be repeated.
-                        Default: the file that the scene names; for a volume, VOLUME.png
-  --spp N               samples per pixel
-  --time SECONDS        as many samples as fit in this time, at most --spp
-  --seed N              of the random numbers; the same seed gives the same picture
-  --nthreads N          default 0: one per core
-  --resolution WxH      in pixels
-  --cropwindow X0,X1,Y0,Y1   only that part of the picture; fractions, Y from the top
-  --integrator NAME     instead of the scene's
-  --grid NAME           of a volume file; default "density", or the only one there is
-  --write-scene FILE    save the scene as .pbrt; without -o, instead of rendering
-  --write-partial-images     write the picture so far every few seconds
-  --variance            add the variance of each pixel to .exr files, for brume compare
-  --quiet               errors only
-  --version, --help     BRUME_ISA=avx512|avx2|sse4|scalar in the environment chooses
-                        the instruction set that --version shows
+  -o, --output FILE      the picture: .png, .exr or .pfm; may be repeated.
+                         Default: as the scene says; for a volume, VOLUME.png
+  --spp N                samples per pixel
+  --time SECONDS         as many samples as fit in this time, at most --spp
+  --seed N               the same seed gives the same picture
+  --nthreads N           default 0: one per core
+  --resolution WxH       in pixels
+  --cropwindow X0,X1,Y0,Y1   a part of it: fractions, Y from the top
+  --pixelbounds X0,X1,Y0,Y1  the same in pixels, without X1 and Y1 themselves
+  --quick                a draft: a quarter of the width, height and samples,
+                         but for what --resolution and --spp say
+  --exposure STOPS       .png files brighter, or below 0 darker, by powers of 2
+  --integrator NAME      instead of the scene's
+  --grid NAME            of a volume; default "density", or the only one
+  --write-scene FILE     save the scene as .pbrt; without -o do no more
+  --write-partial-images write the picture so far every few seconds
+  --variance             each pixel's variance too (.exr), for brume compare
+  --stats                when it is done, a table of what it took and did
+  --stats-json FILE      the same as a file for programs
+  --strict               refuse old spellings in scenes
+  --quiet                errors only
+  --version, --help      BRUME_ISA=avx512|avx2|sse4|scalar in the environment
+                         chooses the instruction set that --version shows
 
-A scene may be packed (.pbrt.gz) or come from the standard input (-); several files are read as
-one. --strict refuses old spellings. A volume on its own is framed and lit. Ctrl-C saves what is
-rendered so far; a second Ctrl-C ends at once. Examples:
+A scene may be packed (.pbrt.gz) or come from the standard input (-); several
+files are one. A volume is framed and lit. Ctrl-C saves what is rendered.
+
   brume smoke.vdb -o smoke.png -o smoke.exr
   brume scene.pbrt --spp 64 --resolution 1280x720)";
 
 struct Arguments {
-  std::string grid, write_scene;
+  std::string grid, write_scene, stats_json;
   std::vector<std::string> files, outputs;
   int threads = 0;
   double seconds = 0;  // 0: no limit
-  bool example = false, strict = false, partial_images = false, variance = false, quiet = false, help = false,
+  double exposure = 0;
+  bool example = false, strict = false, partial_images = false, variance = false, stats = false, quiet = false,
+       help = false,
        version = false;
   brume::SceneOptions changes;
 };
@@ -67,15 +76,16 @@ void parse_resolution(const std::string& text, brume::SceneOptions& changes) {
 }
 
 // "0,0.5,0,1"; which numbers make a window is for the scene to say.
-std::array<double, 4> parse_crop_window(const std::string& text) {
-  std::array<double, 4> window{};
+template <class Number>
+std::array<Number, 4> parse_window(const std::string& option, const std::string& text, const char* example) {
+  std::array<Number, 4> window{};
   const char* at = text.data();
   const char* const end = at + text.size();
   for (std::size_t i = 0; i < window.size(); ++i) {
     const auto [next, error] = std::from_chars(at, end, window[i]);
     const bool last = i + 1 == window.size();
     if (error != std::errc() || (last ? next != end : next == end || *next != ','))
-      throw UsageError("--cropwindow: \"" + text + "\" is not X0,X1,Y0,Y1, as in 0,0.5,0,1 for the left half");
+      throw UsageError(option + ": \"" + text + "\" is not X0,X1,Y0,Y1, as in " + example);
     at = next + 1;
   }
   return window;
@@ -83,7 +93,7 @@ std::array<double, 4> parse_crop_window(const std::string& text) {
 
 Arguments parse_arguments(const std::vector<std::string>& given) {
   Arguments a;
-  std::string samples, seconds, seed, threads, resolution, crop_window;
+  std::string samples, seconds, seed, threads, resolution, crop_window, pixel_bounds, exposure;
   CLI::App app;
   app.set_help_flag();  // help and version are ours
   app.add_option("SCENE", a.files);
@@ -94,6 +104,9 @@ Arguments parse_arguments(const std::vector<std::string>& given) {
   app.add_option("--nthreads", threads);
   app.add_option("--resolution", resolution);
   app.add_option("--cropwindow", crop_window);
+  app.add_option("--pixelbounds", pixel_bounds);
+  app.add_flag("--quick", a.changes.quick);
+  app.add_option("--exposure", exposure);
   app.add_option("--integrator", a.changes.integrator);
   app.add_option("--grid", a.grid);
   app.add_option("--write-scene", a.write_scene);
@@ -101,6 +114,8 @@ Arguments parse_arguments(const std::vector<std::string>& given) {
   app.add_flag("--strict", a.strict);
   app.add_flag("--write-partial-images", a.partial_images);
   app.add_flag("--variance", a.variance);
+  app.add_flag("--stats", a.stats);
+  app.add_option("--stats-json", a.stats_json);
   app.add_flag("--quiet", a.quiet);
   app.add_flag("--version", a.version);
   app.add_flag("-h,--help", a.help);
@@ -112,7 +127,13 @@ Arguments parse_arguments(const std::vector<std::string>& given) {
   if (!seed.empty()) a.changes.seed = static_cast<std::uint32_t>(parse_number("--seed", seed, 0, 0xffffffff));
   if (!threads.empty()) a.threads = static_cast<int>(parse_number("--nthreads", threads, 0, 4096));
   if (!resolution.empty()) parse_resolution(resolution, a.changes);
-  if (!crop_window.empty()) a.changes.crop_window = parse_crop_window(crop_window);
+  if (!crop_window.empty())
+    a.changes.crop_window = parse_window<double>("--cropwindow", crop_window, "0,0.5,0,1 for the left half");
+  if (!pixel_bounds.empty())
+    a.changes.pixel_bounds = parse_window<int>("--pixelbounds", pixel_bounds, "0,64,0,64 for the first 64 x 64 pixels");
+  if (!crop_window.empty() && !pixel_bounds.empty())
+    throw UsageError("--cropwindow and --pixelbounds: only one can be given");
+  if (!exposure.empty()) a.exposure = parse_real("--exposure", exposure, -100, 100);
   if (a.files.empty() && !a.example)
     throw UsageError("a scene or a volume to render is missing; brume --help shows how");
   if (!a.files.empty() && a.example) throw UsageError("--example takes no scene or volume");
@@ -133,14 +154,19 @@ brume::Scene load(const Arguments& a) {
   return scene;
 }
 
-bool is_exr(std::string path) {
-  std::transform(path.begin(), path.end(), path.begin(), [](unsigned char c) { return std::tolower(c); });
-  return path.ends_with(".exr");
+bool any_ends_in(const std::vector<std::string>& paths, const char* suffix) {
+  return std::any_of(paths.begin(), paths.end(), [&](std::string path) {
+    std::transform(path.begin(), path.end(), path.begin(), [](unsigned char c) { return std::tolower(c); });
+    return path.ends_with(suffix);
+  });
 }
 
 void check_outputs(const Arguments& a, const std::vector<std::string>& outputs) {
   for (const std::string& output : outputs) brume::Picture::check_output(output);
-  if (a.variance && !outputs.empty() && std::none_of(outputs.begin(), outputs.end(), is_exr))
+  if (!a.stats_json.empty()) brume::Statistics::check_output(a.stats_json);
+  if (a.exposure != 0 && !outputs.empty() && !any_ends_in(outputs, ".png"))
+    throw UsageError("--exposure needs a .png file among the outputs, as in -o picture.png");
+  if (a.variance && !outputs.empty() && !any_ends_in(outputs, ".exr"))
     throw UsageError("--variance needs an .exr file among the outputs, as in -o picture.exr");
 }
 
@@ -169,7 +195,7 @@ std::optional<brume::Picture> render(const Arguments& a, const brume::Scene& sce
     options.on_partial_picture = [&](const brume::Picture& picture) {
       // What cannot be written now may be at the end: no reason to give up a long render.
       try {
-        for (const std::string& output : outputs) picture.write(output);
+        for (const std::string& output : outputs) picture.write(output, a.exposure);
       } catch (const brume::Error& e) {
         if (can_write) warn(e.what());
         can_write = false;
@@ -182,11 +208,13 @@ std::optional<brume::Picture> render(const Arguments& a, const brume::Scene& sce
 
 int save(const Arguments& a, const brume::Picture& picture, const std::vector<std::string>& outputs) {
   for (const std::string& output : outputs) {
-    picture.write(output);
+    picture.write(output, a.exposure);
     say(a, output + ": " + std::to_string(picture.width) + " x " + std::to_string(picture.height) + " pixels, " +
                std::to_string(picture.samples_per_pixel) + " samples per pixel" +
                (picture.partial ? " at least; partial" : "") + ", " + clock_text(picture.seconds));
   }
+  if (a.stats) std::fputs(picture.statistics.table().c_str(), stderr);
+  if (!a.stats_json.empty()) picture.statistics.write(a.stats_json);
   return picture.partial ? exit_interrupted : 0;
 }
 

@@ -11,3 +11,4 @@
 #include "brume/phase.h"
 #include "brume/render.h"
 #include "brume/scene.h"
+#include "brume/statistics.h"

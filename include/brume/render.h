@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "brume/scene.h"
+#include "brume/statistics.h"
 
 namespace brume {
 
@@ -15,6 +16,7 @@ struct Progress {
   double fraction = 0;  // of the whole, 0 to 1
   double elapsed_seconds = 0;
   double remaining_seconds = -1;  // below 0: not known yet
+  double samples_per_second = 0;  // of all pixels together, so far
 };
 
 struct Picture;
@@ -40,6 +42,10 @@ struct RenderOptions {
 struct Picture {
   int width = 0, height = 0;
   std::vector<float> pixels;  // scene-linear Rec.709, rows from the top, three floats a pixel
+  // One a pixel. Alpha is the share of the camera's rays that surfaces and media stop on the way to the environment,
+  // coloured transmittances averaged; `pixels` holds what is seen through the rest too. Depth is the mean distance
+  // along the camera's axis at which they are stopped, in world units; infinite where none is.
+  std::vector<float> alpha, depth;
   // The variance of each of the pixels' values, estimated from the samples and true to the picture where these are
   // independent (sampler "independent"); NaN where a pixel has fewer than two samples. Empty unless asked for.
   std::vector<float> variance;
@@ -48,10 +54,13 @@ struct Picture {
   double seconds = 0;
   std::int64_t invalid_samples = 0;  // samples that were not finite and were left out
   std::vector<std::string> warnings;
+  Statistics statistics;
 
-  // Writes .exr, .png (sRGB) or .pfm by the suffix of `path`, whole or not at all. The variance goes into an
-  // .exr as the layer Variance (Variance.R, .G, .B), and all values are 32-bit floats then. Throws Error.
-  void write(const std::string& path) const;
+  // Writes .exr, .png (sRGB, opaque) or .pfm by the suffix of `path`, whole or not at all. The values of a .png are
+  // multiplied by 2^exposure. Into an .exr go
+  // alpha as channel A and depth as Z, which has 32 bits always; and the variance as the layer Variance (Variance.R,
+  // .G, .B), where all values are 32-bit floats then. Throws Error.
+  void write(const std::string& path, double exposure = 0) const;
   // Throws Error unless write(path) can be expected to work: a known suffix, and a folder that can be written to. To be
   // called before a long render.
   static void check_output(const std::string& path);

@@ -11,8 +11,8 @@
 
 namespace brume {
 
-// What every function here throws when its input is at fault. what() is ready to be shown: one or more messages with
-// file:line:column, the line and a caret.
+// What every function here throws when its input is at fault. what() is ready to be shown: one or more messages that
+// begin with the file they are about, file:line:column, where there is one, then "error:"; then the line and a caret.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -25,6 +25,12 @@ struct SceneOptions {
   // x0 x1 y0 y1, fractions of the picture with y from the top, 0 <= x0 < x1 <= 1: only the pixels whose upper left
   // corners lie in it are rendered, with the values that they have in the whole picture.
   std::optional<std::array<double, 4>> crop_window;
+  // The same in pixels: x0 x1 y0 y1, the first ones rendered, the last ones not; within the picture. crop_window
+  // overrides it.
+  std::optional<std::array<int, 4>> pixel_bounds;
+  // A draft: a quarter of the width, of the height and of the samples per pixel, but at least 1; what is set above
+  // stays as it is set.
+  bool quick = false;
   std::optional<std::uint32_t> seed;
   std::optional<std::string> integrator;
 };

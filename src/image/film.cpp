@@ -8,10 +8,10 @@ namespace brume {
 
 namespace {
 
-bool is_finite(const Spectrum& s) {
+bool is_finite(const Spectrum& s, const Foreground& f) {
   for (int c = 0; c < channel_count; ++c)
     if (!std::isfinite(s[c])) return false;
-  return true;
+  return std::isfinite(f.coverage) && std::isfinite(f.depth);
 }
 
 }  // namespace
@@ -22,18 +22,23 @@ Film::Film(int width, int height, const FilmResponse& response)
       response_(response),
       pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
 
-void Film::add(int x, int y, const Spectrum& radiance) {
+void Film::add(int x, int y, const Spectrum& radiance, const Foreground& foreground, float weight) {
   Pixel& pixel = pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
-  if (!is_finite(radiance)) {
+  const Spectrum weighted = weight * radiance;
+  if (!is_finite(weighted, foreground)) {
     ++pixel.invalid;
     return;
   }
-  const Spectrum rgb = response_(radiance);
+  const Spectrum rgb = response_(weighted);
   for (int c = 0; c < channel_count; ++c) {
     const double value = rgb[c];
     pixel.sum[c] += value;
     pixel.sum_squares[c] += value * value;
   }
+  const double coverage = foreground.coverage;
+  pixel.alpha += static_cast<double>(weight) * coverage;
+  pixel.coverage += coverage;
+  pixel.depth += foreground.depth;
   ++pixel.count;
 }
 
@@ -41,9 +46,15 @@ Image Film::image() const {
   static_assert(channel_count == 3, "other spectra need a conversion to red, green and blue here");
   Image image{width_, height_, {}};
   image.pixels.reserve(3 * pixels_.size());
-  for (const Pixel& pixel : pixels_)
-    for (const double sum : pixel.sum)
-      image.pixels.push_back(pixel.count > 0 ? static_cast<float>(sum / pixel.count) : 0.0f);
+  image.alpha.reserve(pixels_.size());
+  image.depth.reserve(pixels_.size());
+  for (const Pixel& pixel : pixels_) {
+    const auto mean = [&](double sum) { return pixel.count > 0 ? static_cast<float>(sum / pixel.count) : 0.0f; };
+    for (const double sum : pixel.sum) image.pixels.push_back(mean(sum));
+    image.alpha.push_back(mean(pixel.alpha));
+    image.depth.push_back(pixel.coverage > 0 ? static_cast<float>(pixel.depth / pixel.coverage)
+                                             : std::numeric_limits<float>::infinity());
+  }
   return image;
 }
 
@@ -59,6 +70,12 @@ std::vector<float> Film::variance() const {
                              : static_cast<float>(std::max(pixel.sum_squares[c] / n - mean * mean, 0.0) / (n - 1)));
     }
   return variance;
+}
+
+std::int64_t Film::samples() const {
+  std::int64_t samples = 0;
+  for (const Pixel& pixel : pixels_) samples += pixel.count + pixel.invalid;
+  return samples;
 }
 
 std::int64_t Film::invalid_samples() const {

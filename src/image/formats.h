@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "image/exr_header.h"
 #include "image/image.h"
 
 namespace brume {
@@ -14,6 +15,7 @@ std::string encode_png(const Image& image, const ImageMetadata& metadata);
 std::string encode_pfm(const Image& image);
 
 Image decode_exr(std::string_view bytes);
+ExrHeader decode_exr_header(std::string_view bytes);
 ImageMetadata decode_exr_metadata(std::string_view bytes);
 Image decode_pfm(std::string_view bytes);
 

@@ -16,6 +16,10 @@ struct Image {
   int width = 0, height = 0;
   std::vector<float> pixels;      // width * height * 3
   std::vector<float> variance{};  // of each of the pixels' values; NaN where it is not known; empty: of none
+  // One a pixel, or empty. Alpha is the share of the pixel that surfaces and media cover, what they let through left
+  // out; depth the mean distance along the camera's axis of what covers it, in world units, infinite where nothing
+  // does.
+  std::vector<float> alpha{}, depth{};
 };
 
 // What a picture's file says of how it was made. A PNG holds it as text, a PFM has no place for it.
@@ -32,6 +36,7 @@ struct ImageMetadata {
   int x = 0, y = 0, whole_width = 0, whole_height = 0;
   bool partial = false;  // not all of the samples asked for
   bool half = true;      // EXR only: 16-bit floats
+  double exposure = 0;   // PNG only: in stops; values are multiplied by 2^exposure
   std::string software;
 };
 
@@ -41,13 +46,14 @@ constexpr const char* image_suffixes = ".exr, .png and .pfm";
 // Throws InputError unless `path` ends in one of them.
 void check_image_suffix(const std::string& path);
 
-// Writes .exr, .png (sRGB, 8 bits) or .pfm by the suffix of `path`, whole or not at all. The variance goes into an .exr
-// as the layer Variance (channels Variance.R, .G and .B, 32-bit floats); the others have no place for it. Throws
-// InputError for another suffix (naming the three) and for whatever the file system refuses.
+// Writes .exr, .png (sRGB, 8 bits, opaque) or .pfm by the suffix of `path`, whole or not at all. Into an .exr go alpha
+// as channel A, depth as Z and the variance as the layer Variance (channels Variance.R, .G and .B), the latter two as
+// 32-bit floats; the others have no place for them. Throws InputError for another suffix (naming the three) and for
+// whatever the file system refuses.
 void write_image(const std::string& path, const Image& image, const ImageMetadata& metadata);
 
-// Reads .exr (channels R, G and B of a flat picture, and its layer Variance where there is one) or .pfm (a grey one
-// gives three equal channels). Throws InputError.
+// Reads .exr (channels R, G and B of a flat picture, and A, Z and its layer Variance where there are) or .pfm (a grey
+// one gives three equal channels). Throws InputError.
 Image read_image(const std::string& path);
 
 // What an .exr says of how it was made; what it does not say is as in a new ImageMetadata. Throws InputError.

@@ -3,7 +3,6 @@
 #include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfMatrixAttribute.h>
@@ -11,34 +10,17 @@
 
 #include <algorithm>
 #include <charconv>
+#include <span>
 #include <stdexcept>
 
 #include "image/check_exr_header.h"
 #include "image/exr_channels.h"
+#include "image/exr_memory_stream.h"
 #include "image/formats.h"
 
 namespace brume {
 
 namespace {
-
-class MemoryStream : public Imf::IStream {
- public:
-  explicit MemoryStream(std::string_view bytes) : Imf::IStream(""), bytes_(bytes) {}
-  bool read(char to[], int count) override {
-    const auto size = static_cast<std::size_t>(count);
-    if (count < 0 || position_ > bytes_.size() || size > bytes_.size() - position_)
-      throw std::runtime_error("the file ends too early");
-    std::copy_n(bytes_.data() + position_, size, to);
-    position_ += size;
-    return position_ < bytes_.size();
-  }
-  std::uint64_t tellg() override { return position_; }
-  void seekg(std::uint64_t position) override { position_ = position; }
-
- private:
-  std::string_view bytes_;
-  std::size_t position_ = 0;
-};
 
 template <class Attribute, class Value>
 void find(const Imf::Header& header, const char* name, Value& value) {
@@ -58,18 +40,19 @@ const Imf::Channel* find_channel(const Imf::InputFile& file, const char* name) {
   return file.header().channels().findChannel(name);
 }
 
-// Has three channels of the file read into `values`, as three floats a pixel.
-void insert(Imf::FrameBuffer& frame, const Imf::InputFile& file, const ChannelNames& names,
+// Has channels of the file read into `values`, one float for each a pixel.
+void insert(Imf::FrameBuffer& frame, const Imf::InputFile& file, std::span<const char* const> names,
             std::vector<float>& values) {
   const Imath::Box2i window = file.header().dataWindow();
   const auto width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
-  values.resize(width * static_cast<std::size_t>(window.max.y - window.min.y + 1) * 3);
+  values.resize(width * static_cast<std::size_t>(window.max.y - window.min.y + 1) * names.size());
+  const std::size_t pixel = names.size() * sizeof(float);
   float* first = values.data();
   for (const char* name : names) {
     const Imf::Channel* channel = find_channel(file, name);
     if (!channel) throw std::runtime_error(std::string("it has no channel ") + name);
     if (channel->xSampling != 1 || channel->ySampling != 1) throw std::runtime_error("its channels are subsampled");
-    frame.insert(name, Imf::Slice::Make(Imf::FLOAT, first++, window, 3 * sizeof(float), 3 * sizeof(float) * width));
+    frame.insert(name, Imf::Slice::Make(Imf::FLOAT, first++, window, pixel, pixel * width));
   }
 }
 
@@ -77,7 +60,7 @@ void insert(Imf::FrameBuffer& frame, const Imf::InputFile& file, const ChannelNa
 
 ImageMetadata decode_exr_metadata(std::string_view bytes) {
   check_exr_header(bytes);
-  MemoryStream stream(bytes);
+  ExrMemoryStream stream(bytes);
   const Imf::InputFile file(stream);
   const Imf::Header& header = file.header();
   ImageMetadata metadata;
@@ -104,12 +87,14 @@ ImageMetadata decode_exr_metadata(std::string_view bytes) {
 
 Image decode_exr(std::string_view bytes) {
   check_exr_header(bytes);
-  MemoryStream stream(bytes);
+  ExrMemoryStream stream(bytes);
   Imf::InputFile file(stream);
   const Imath::Box2i window = file.header().dataWindow();
   Image image{window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, {}};
   Imf::FrameBuffer frame;
   insert(frame, file, colour_channels, image.pixels);
+  if (find_channel(file, alpha_channel)) insert(frame, file, {&alpha_channel, 1}, image.alpha);
+  if (find_channel(file, depth_channel)) insert(frame, file, {&depth_channel, 1}, image.depth);
   if (find_channel(file, variance_channels[0])) insert(frame, file, variance_channels, image.variance);
   file.setFrameBuffer(frame);
   file.readPixels(window.min.y, window.max.y);

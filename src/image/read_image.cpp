@@ -29,6 +29,8 @@ Image read_image(const std::string& path) {
   return decode_file(path, s == ".exr" ? decode_exr : decode_pfm);
 }
 
+ExrHeader read_exr_header(const std::string& path) { return decode_file(path, decode_exr_header); }
+
 ImageMetadata read_image_metadata(const std::string& path) {
   if (suffix(path) != ".exr") throw InputError(path, "only .exr files say how they were made");
   return decode_file(path, decode_exr_metadata);

@@ -1,4 +1,4 @@
-// OpenEXR: scanlines, channels R, G and B, and the layer Variance where the image has it, ZIP.
+// OpenEXR: scanlines, channels R, G and B, and A, Z and the layer Variance where the image has them, ZIP.
 #include <ImathBox.h>
 #include <ImathMatrix.h>
 #include <OpenEXR/ImfChannelList.h>
@@ -13,6 +13,7 @@
 #include <OpenEXR/ImfStringAttribute.h>
 
 #include <algorithm>
+#include <span>
 
 #include "image/exr_channels.h"
 #include "image/formats.h"
@@ -60,8 +61,10 @@ Imf::Header make_header(const Image& image, const ImageMetadata& metadata) {
   Imf::Header header(
       is_part ? Imath::Box2i({0, 0}, {metadata.whole_width - 1, metadata.whole_height - 1}) : data_window, data_window);
   header.compression() = Imf::ZIP_COMPRESSION;
-  for (const char* channel : colour_channels)
-    header.channels().insert(channel, Imf::Channel(metadata.half ? Imf::HALF : Imf::FLOAT));
+  const Imf::Channel colour(metadata.half ? Imf::HALF : Imf::FLOAT);
+  for (const char* channel : colour_channels) header.channels().insert(channel, colour);
+  if (!image.alpha.empty()) header.channels().insert(alpha_channel, colour);
+  if (!image.depth.empty()) header.channels().insert(depth_channel, Imf::Channel(Imf::FLOAT));
   if (!image.variance.empty())
     for (const char* channel : variance_channels) header.channels().insert(channel, Imf::Channel(Imf::FLOAT));
   header.insert("samplesPerPixel", Imf::IntAttribute(metadata.samples_per_pixel));
@@ -77,17 +80,26 @@ Imf::Header make_header(const Image& image, const ImageMetadata& metadata) {
   return header;
 }
 
+// Has channels written from `values`, which hold one for each name a pixel; nothing where there are none.
 template <class Value>
-void insert(Imf::FrameBuffer& frame, const Imf::Header& header, const ChannelNames& names, Imf::PixelType type,
-            const Value* values) {
+void insert(Imf::FrameBuffer& frame, const Imf::Header& header, std::span<const char* const> names, Imf::PixelType type,
+            const std::vector<Value>& values) {
+  if (values.empty()) return;
   const Imath::Box2i window = header.dataWindow();
   const auto width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
-  for (const char* name : names)
-    frame.insert(name, Imf::Slice::Make(type, values++, window, 3 * sizeof(Value), 3 * sizeof(Value) * width));
+  const std::size_t pixel = names.size() * sizeof(Value);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    frame.insert(names[i], Imf::Slice::Make(type, values.data() + i, window, pixel, pixel * width));
 }
 
 // 65504 is the largest finite half.
 half to_half(float v) { return half(std::clamp(v, -65504.0f, 65504.0f)); }
+
+std::vector<half> to_halves(const std::vector<float>& values) {
+  std::vector<half> halves(values.size());
+  std::transform(values.begin(), values.end(), halves.begin(), to_half);
+  return halves;
+}
 
 }  // namespace
 
@@ -96,15 +108,18 @@ std::string encode_exr(const Image& image, const ImageMetadata& metadata) {
   {
     Imf::OutputFile file(stream, make_header(image, metadata));
     Imf::FrameBuffer frame;
-    std::vector<half> halves;
+    std::vector<half> colour, alpha;
     if (metadata.half) {
-      halves.resize(image.pixels.size());
-      std::transform(image.pixels.begin(), image.pixels.end(), halves.begin(), to_half);
-      insert(frame, file.header(), colour_channels, Imf::HALF, halves.data());
+      colour = to_halves(image.pixels);
+      alpha = to_halves(image.alpha);
+      insert(frame, file.header(), colour_channels, Imf::HALF, colour);
+      insert(frame, file.header(), {&alpha_channel, 1}, Imf::HALF, alpha);
     } else {
-      insert(frame, file.header(), colour_channels, Imf::FLOAT, image.pixels.data());
+      insert(frame, file.header(), colour_channels, Imf::FLOAT, image.pixels);
+      insert(frame, file.header(), {&alpha_channel, 1}, Imf::FLOAT, image.alpha);
     }
-    if (!image.variance.empty()) insert(frame, file.header(), variance_channels, Imf::FLOAT, image.variance.data());
+    insert(frame, file.header(), {&depth_channel, 1}, Imf::FLOAT, image.depth);
+    insert(frame, file.header(), variance_channels, Imf::FLOAT, image.variance);
     file.setFrameBuffer(frame);
     file.writePixels(image.height);
   }  // the destructor writes the table of offsets

@@ -73,8 +73,10 @@ png_text text(const char* key, std::string& value) {
 }
 
 std::string comment(const ImageMetadata& metadata) {
-  return fmt::format("{} samples per pixel, seed {}, {:.1f} s{}", metadata.samples_per_pixel, metadata.seed,
-                     metadata.render_time_seconds, metadata.partial ? ", partial: stopped before its end" : "");
+  return fmt::format("{} samples per pixel, seed {}, {:.1f} s{}{}", metadata.samples_per_pixel, metadata.seed,
+                     metadata.render_time_seconds,
+                     metadata.exposure == 0 ? "" : fmt::format(", exposure {:+g}", metadata.exposure),
+                     metadata.partial ? ", partial: stopped before its end" : "");
 }
 
 void to_rec709(ColourSpace space, std::vector<float>& pixels) {
@@ -98,8 +100,10 @@ std::uint8_t srgb_from_linear(float linear) {
 std::string encode_png(const Image& image, const ImageMetadata& metadata) {
   std::vector<float> pixels = image.pixels;
   if (metadata.colour_space != ColourSpace::srgb) to_rec709(metadata.colour_space, pixels);
+  const auto gain = static_cast<float>(std::exp2(metadata.exposure));
   std::vector<png_byte> values(pixels.size());
-  std::transform(pixels.begin(), pixels.end(), values.begin(), srgb_from_linear);
+  std::transform(pixels.begin(), pixels.end(), values.begin(),
+                 [gain](float value) { return srgb_from_linear(gain * value); });
   std::vector<const png_byte*> rows;
   for (int y = 0; y < image.height; ++y)
     rows.push_back(values.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) * 3);

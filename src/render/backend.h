@@ -1,12 +1,12 @@
 // The seam between a scene and what renders it: the CPU here, a GPU elsewhere.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 
 #include "compiled/compiled_scene.h"
 #include "image/film.h"
+#include "render/render_counts.h"
 
 namespace brume {
 
@@ -24,9 +24,8 @@ class Backend {
   virtual bool render(int first, int last, int threads, Film& film,
                       const std::function<bool(double fraction)>& keep_going) = 0;
 
-  // How often, in all that was rendered since prepare, a density was found above its majorant. A fault of ours where it
-  // is not 0: the picture has a bias.
-  virtual std::int64_t majorant_violations() const = 0;
+  // Of all that was rendered since prepare.
+  virtual RenderCounts counts() const = 0;
 };
 
 std::unique_ptr<Backend> make_cpu_backend();

@@ -6,6 +6,12 @@
 
 namespace brume {
 
+// The direction that it looks in, of unit length.
+inline kernel::vec3 camera_axis(const CompiledCamera& camera) {
+  const Vector3 axis = normalize(camera.world_from_camera.vector({0, 0, 1}));
+  return {static_cast<float>(axis.x), static_cast<float>(axis.y), static_cast<float>(axis.z)};
+}
+
 // Through the point (x, y), in pixels from the top left of the whole picture.
 inline Ray camera_ray(const CompiledCamera& camera, double x, double y) {
   const Vector3 origin = camera.world_from_camera.point({});

@@ -36,27 +36,32 @@ ClassicIntegrator::ClassicIntegrator(const CompiledScene& scene, const Intersect
                                      const MediaAlongRay& media)
     : scene_(scene), intersector_(intersector), media_(media), visibility_(scene, intersector, media) {}
 
-Spectrum ClassicIntegrator::radiance(Ray ray, RandomStream& random) {
+Spectrum ClassicIntegrator::radiance(Ray ray, RandomStream& random, Foreground& seen) {
   Spectrum result;
   pending_.assign(1, {ray, constant_spectrum(1), 0});
   for (int followed = 0; !pending_.empty() && followed <= most_followers; ++followed) {
     const Branch branch = pending_.back();
     pending_.pop_back();
-    result = result + follow(branch, random);
+    Foreground ahead;
+    result = result + follow(branch, random, ahead);
+    if (followed == 0) seen = ahead;
   }
   return result;
 }
 
-// What one ray adds; the rays that go on from its end become pending.
-Spectrum ClassicIntegrator::follow(const Branch& branch, RandomStream& random) {
+// What one ray adds, and in `seen` where it is stopped; the rays that go on from its end become pending.
+Spectrum ClassicIntegrator::follow(const Branch& branch, RandomStream& random, Foreground& seen) {
   Branch at_end = branch;
   Ray& ray = at_end.ray;
   SurfaceHit hit;
   const bool is_hit = intersector_.nearest_surface(ray, hit);
+  ++counts_.rays;
+  counts_.surface_hits += is_hit;
   if (is_hit) ray.t_max = hit.t;
   const bool scatters = branch.depth < scene_.integrator.max_depth;
   Spectrum transmittance = constant_spectrum(1);
-  Spectrum result = branch.throughput * cross_media(ray, scatters, random, transmittance);
+  Spectrum result = branch.throughput * cross_media(ray, scatters, random, transmittance, seen);
+  if (is_hit) seen.add(1 - seen.coverage, hit.t);
   at_end.throughput = branch.throughput * transmittance;
   if (!is_hit) return result + at_end.throughput * background(at_end);
   const std::int32_t light = scene_.shapes[static_cast<std::size_t>(hit.shape)].light;
@@ -94,8 +99,10 @@ float ClassicIntegrator::share(const Branch& branch, const CompiledLight& light,
   return branch.pdf / (branch.pdf + by_shadow_rays);
 }
 
-// What the media along the ray add, and in `transmittance` what they leave of what lies behind them.
-Spectrum ClassicIntegrator::cross_media(const Ray& ray, bool scatters, RandomStream& random, Spectrum& transmittance) {
+// What the media along the ray add, in `transmittance` what they leave of what lies behind them, and in `seen` where
+// the rest was stopped.
+Spectrum ClassicIntegrator::cross_media(const Ray& ray, bool scatters, RandomStream& random, Spectrum& transmittance,
+                                        Foreground& seen) {
   if (const auto place = media_.find({&ray, 1}, spans_, crossings_)) too_many_media_ = place;
   points_.clear();
   scatterings_.clear();
@@ -113,9 +120,12 @@ Spectrum ClassicIntegrator::cross_media(const Ray& ray, bool scatters, RandomStr
       place_steps(t_begin, length, first, std::min(count, first + batch_size), random);
       find_densities();
       for (std::size_t k = 0; k < steps_.size(); ++k) {
+        const float before = sum(transmittance);
         emitted = emitted + take_step(ray, k, scatters, transmittance);
-        if (max_value(transmittance) >= negligible_transmittance) continue;
-        transmittance = {};
+        const bool ends = max_value(transmittance) < negligible_transmittance;
+        if (ends) transmittance = {};
+        seen.add((before - sum(transmittance)) / channel_count, sample_t_[k]);
+        if (!ends) continue;
         return emitted + in_scattering(ray, random);
       }
     }
@@ -186,6 +196,7 @@ void ClassicIntegrator::find_densities() {
       sample_density(scene_.grids[static_cast<std::size_t>(medium.grid)].view(), medium.linear, span.entry_index,
                      span.direction_index, span.t_begin, sample_t_, density);
     }
+    if (medium.grid >= 0) counts_.look_ups += static_cast<std::int64_t>(steps_.size());
     for (float& d : density) d *= static_cast<float>(span.count);
   }
 }
@@ -261,6 +272,7 @@ Spectrum ClassicIntegrator::in_scattering(const Ray& ray, RandomStream& random) 
       light_samples_.push_back(sample_light(scene_, light, point.position, nullptr, random));
       shadow_rays_.push_back(light_samples_.back().ray);
     }
+    counts_.shadow_rays += static_cast<std::int64_t>(shadow_rays_.size());
     visibility_.find(shadow_rays_, random, arriving_);
     for (std::size_t i = 0; i < points_.size(); ++i) {
       // Light travels against the shadow ray, and is scattered against the camera's: the two signs cancel.
@@ -301,6 +313,7 @@ Spectrum ClassicIntegrator::direct_light(const Ray& ray, const SurfaceHit& hit, 
       shadow_rays_.push_back(started_at(start, s.ray));
     }
   }
+  counts_.shadow_rays += static_cast<std::int64_t>(shadow_rays_.size());
   visibility_.find(shadow_rays_, random, arriving_);
   for (std::size_t i = 0; i < shadow_rays_.size(); ++i) result = result + light_samples_[i].value * arriving_[i];
   return result;

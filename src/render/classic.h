@@ -23,7 +23,9 @@
 
 #include <vector>
 
+#include "image/film.h"
 #include "render/lights.h"
+#include "render/render_counts.h"
 #include "render/visibility.h"
 
 namespace brume {
@@ -33,8 +35,10 @@ class ClassicIntegrator {
  public:
   ClassicIntegrator(const CompiledScene& scene, const Intersector& intersector, const MediaAlongRay& media);
 
-  // The radiance that arrives at the ray's origin.
-  Spectrum radiance(Ray ray, RandomStream& random);
+  // The radiance that arrives at the ray's origin; `seen` gets what the ray meets, its depth along the ray.
+  Spectrum radiance(Ray ray, RandomStream& random, Foreground& seen);
+
+  const RenderCounts& counts() const { return counts_; }
 
   // A place where more than max_active_media media overlap, once a ray has met one.
   std::optional<kernel::vec3> too_many_media() const {
@@ -63,9 +67,9 @@ class ClassicIntegrator {
     std::size_t first, last;  // in scatterings_
   };
 
-  Spectrum follow(const Branch& branch, RandomStream& random);
+  Spectrum follow(const Branch& branch, RandomStream& random, Foreground& seen);
   void branch_off(const Branch& branch, const SurfaceHit& hit, RandomStream& random);
-  Spectrum cross_media(const Ray& ray, bool scatters, RandomStream& random, Spectrum& transmittance);
+  Spectrum cross_media(const Ray& ray, bool scatters, RandomStream& random, Spectrum& transmittance, Foreground& seen);
   void find_cuts();
   float longest_step(float t_begin, float t_end);
   void place_steps(float t_begin, float length, int first, int last, RandomStream& random);
@@ -97,6 +101,7 @@ class ClassicIntegrator {
   std::vector<LightSample> light_samples_;
   std::vector<Ray> shadow_rays_;
   std::vector<Spectrum> arriving_;
+  RenderCounts counts_;
 };
 
 }  // namespace brume

@@ -42,7 +42,7 @@ class TileRenderer {
     if (volpath_) return volpath_->render_tile(tile, first, last, film);
     for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x)
-        for (int s = first; s < last; ++s) film.add(x, y, sample_pixel(scene_.crop.x0 + x, scene_.crop.y0 + y, s));
+        for (int s = first; s < last; ++s) add_sample(x, y, s, film);
   }
 
   std::optional<kernel::vec3> too_many_media() const {
@@ -50,19 +50,24 @@ class TileRenderer {
            : reference_ ? reference_->too_many_media()
                         : volpath_->too_many_media();
   }
-  std::int64_t majorant_violations() const {
-    return volpath_ ? volpath_->majorant_violations() : reference_ ? reference_->majorant_violations() : 0;
+  RenderCounts counts() const {
+    return volpath_ ? volpath_->counts() : reference_ ? reference_->counts() : classic_->counts();
   }
 
  private:
-  // Of pixel (x, y) of the whole picture.
-  Spectrum sample_pixel(int x, int y, int index) {
-    RandomStream random(scene_, x, y, index);
+  // Of pixel (x, y) of the film.
+  void add_sample(int x, int y, int index, Film& film) {
+    const int picture_x = scene_.crop.x0 + x, picture_y = scene_.crop.y0 + y;
+    RandomStream random(scene_, picture_x, picture_y, index);
     const RandomStream::Pair place = random.next_pair();
     const FilterSample f = filter_.sample(place.u, place.v);
-    const double px = x + 0.5 + static_cast<double>(f.x), py = y + 0.5 + static_cast<double>(f.y);
+    const double px = picture_x + 0.5 + static_cast<double>(f.x), py = picture_y + 0.5 + static_cast<double>(f.y);
     const Ray ray = camera_ray(scene_.camera, px, py);
-    return f.weight * (classic_ ? classic_->radiance(ray, random) : reference_->radiance(ray, random));
+    Foreground foreground;
+    const Spectrum radiance =
+        classic_ ? classic_->radiance(ray, random, foreground) : reference_->radiance(ray, random, foreground);
+    foreground.depth *= dot(ray.direction, camera_axis(scene_.camera));
+    film.add(x, y, radiance, foreground, f.weight);
   }
 
   const CompiledScene& scene_;
@@ -79,10 +84,10 @@ class CpuBackend : public Backend {
     filter_ = std::make_unique<Filter>(scene.filter);
     intersector_ = std::make_unique<Intersector>(scene);
     media_ = std::make_unique<MediaAlongRay>(scene, *intersector_);
-    majorant_violations_ = 0;
+    counts_ = {};
   }
 
-  std::int64_t majorant_violations() const override { return majorant_violations_; }
+  RenderCounts counts() const override { return counts_; }
 
   bool render(int first, int last, int threads, Film& film,
               const std::function<bool(double fraction)>& keep_going) override {
@@ -104,7 +109,7 @@ class CpuBackend : public Backend {
       ++done;
       if (worker == 0 && !keep_going(static_cast<double>(done) / tiles)) stopped = true;
     });
-    for (const auto& i : renderers) majorant_violations_ += i->majorant_violations();
+    for (const auto& i : renderers) counts_ += i->counts();
     for (const auto& i : renderers)
       if (const auto p = i->too_many_media())
         throw InputError("scene",
@@ -114,7 +119,7 @@ class CpuBackend : public Backend {
 
  private:
   const CompiledScene* scene_ = nullptr;
-  std::int64_t majorant_violations_ = 0;
+  RenderCounts counts_;
   std::unique_ptr<Filter> filter_;
   std::unique_ptr<Intersector> intersector_;
   std::unique_ptr<MediaAlongRay> media_;

@@ -17,7 +17,7 @@ float exponential(float rate, RandomStream& random) { return -kernel::log_natura
 
 }  // namespace
 
-Spectrum ReferenceIntegrator::radiance(Ray ray, RandomStream& random) {
+Spectrum ReferenceIntegrator::radiance(Ray ray, RandomStream& random, Foreground& seen) {
   Spectrum result, throughput = constant_spectrum(1);
   Departure departure;
   for (int scatterings = 0;; ++scatterings) {
@@ -27,7 +27,12 @@ Spectrum ReferenceIntegrator::radiance(Ray ray, RandomStream& random) {
     Collision collision;
     Spectrum emitted;
     const bool collides = fly(ray, random, throughput, emitted, collision);
+    ++counts_.rays;
+    counts_.collisions += collides;
+    counts_.surface_hits += is_hit && !collides;
     result = result + emitted;
+    if (scatterings == 0 && (collides || is_hit))
+      seen.add(1, collides ? length(collision.position - ray.origin) : hit.t);
     if (!collides) result = result + throughput * light_met(ray, is_hit ? &hit : nullptr, departure);
     if (scatterings == scene_.integrator.max_depth || (!collides && !is_hit)) return result;
 
@@ -134,9 +139,10 @@ void ReferenceIntegrator::tentative_collisions(bool grids_only, RandomStream& ra
   }
 }
 
-float ReferenceIntegrator::density(const MediumSpan& span, float t) const {
+float ReferenceIntegrator::density(const MediumSpan& span, float t) {
   const CompiledMedium& medium = scene_.media[static_cast<std::size_t>(span.medium)];
   if (medium.grid < 0) return static_cast<float>(span.count);
+  ++counts_.look_ups;
   const kernel::BrickGrid grid = scene_.grids[static_cast<std::size_t>(medium.grid)].view();
   const vec3 p = span.entry_index + (t - span.t_begin) * span.direction_index;
   return static_cast<float>(span.count) * (medium.linear ? grid_linear(grid, p) : grid_nearest(grid, p));
@@ -158,7 +164,7 @@ bool ReferenceIntegrator::fly(const Ray& ray, RandomStream& random, Spectrum& th
     }
     emitted = emitted + (1 / majorant) * throughput * emission;
     // A little more than the majorant may be rounding.
-    if (max_value(sigma_t) > 1.00001f * majorant) ++majorant_violations_;
+    if (max_value(sigma_t) > 1.00001f * majorant) ++counts_.majorant_violations;
     float real = sum(throughput * sigma_t) / (majorant * sum(throughput));
     if (real > 0.999999f) real = 1;  // what is left is rounding
     if (!(random.next() < real)) {
@@ -189,6 +195,7 @@ bool ReferenceIntegrator::fly(const Ray& ray, RandomStream& random, Spectrum& th
 
 // An unbiased estimate of the fraction of light that crosses the ray's media; 0 behind a surface.
 Spectrum ReferenceIntegrator::transmittance(const Ray& ray, RandomStream& random) {
+  ++counts_.shadow_rays;
   std::uint8_t blocked = 0;
   intersector_.occluded({&ray, 1}, {&blocked, 1});
   if (blocked) return {};

@@ -18,8 +18,10 @@
 
 #include <vector>
 
+#include "image/film.h"
 #include "render/lights.h"
 #include "render/media_along_ray.h"
+#include "render/render_counts.h"
 
 namespace brume {
 
@@ -29,13 +31,12 @@ class ReferenceIntegrator {
   ReferenceIntegrator(const CompiledScene& scene, const Intersector& intersector, const MediaAlongRay& media)
       : scene_(scene), intersector_(intersector), media_(media) {}
 
-  // The radiance that arrives at the ray's origin.
-  Spectrum radiance(Ray ray, RandomStream& random);
+  // The radiance that arrives at the ray's origin; `seen` gets what the ray meets, its depth along the ray.
+  Spectrum radiance(Ray ray, RandomStream& random, Foreground& seen);
 
   // A place where more than max_active_media media overlap, once a ray has met one.
   std::optional<kernel::vec3> too_many_media() const { return too_many_media_; }
-  // How often a density exceeded its majorant, which would be a fault of ours.
-  std::int64_t majorant_violations() const { return majorant_violations_; }
+  const RenderCounts& counts() const { return counts_; }
 
  private:
   struct Collision {
@@ -56,13 +57,13 @@ class ReferenceIntegrator {
   Spectrum direct_light(kernel::vec3 p, const SurfaceHit* hit, RandomStream& random, Scatter scatter);
   template <class Visit>
   void tentative_collisions(bool grids_only, RandomStream& random, Visit visit);
-  float density(const MediumSpan& span, float t) const;
+  float density(const MediumSpan& span, float t);
 
   const CompiledScene& scene_;
   const Intersector& intersector_;
   const MediaAlongRay& media_;
   std::optional<kernel::vec3> too_many_media_;
-  std::int64_t majorant_violations_ = 0;
+  RenderCounts counts_;
 
   std::vector<MediumSpan> spans_, active_;  // along the current ray; those that cover the current stretch
   std::vector<float> cuts_;                 // where the set of media changes

@@ -44,6 +44,7 @@ VolpathIntegrator::VolpathIntegrator(const CompiledScene& scene, const Intersect
     : scene_(scene),
       intersector_(intersector),
       filter_(filter),
+      axis_(camera_axis(scene.camera)),
       aim_(make_aim(scene, media)),
       last_depth_(scene.integrator.max_depth - (paths_meet_light(scene) ? 0 : 1)),
       media_(scene, intersector, media),
@@ -121,6 +122,7 @@ void VolpathIntegrator::render_tile(const PixelBox& pixels, int first, int last,
   const auto samples = static_cast<std::uint32_t>(last - first);
   Tile tile{pixels, first, last, static_cast<std::uint32_t>(pixels.width() * pixels.height()) * samples, 0};
   sums_.assign(tile.sample_count, {});
+  foregrounds_.assign(tile.sample_count, {});
   filter_weights_.resize(tile.sample_count);
   places_ = path_count;
   for (idle_.clear(); idle_.size() < places_;) idle_.push_back(static_cast<std::uint32_t>(idle_.size()));
@@ -144,7 +146,18 @@ void VolpathIntegrator::render_tile(const PixelBox& pixels, int first, int last,
   std::uint32_t at = 0;
   for (int y = pixels.y0; y < pixels.y1; ++y)
     for (int x = pixels.x0; x < pixels.x1; ++x)
-      for (std::uint32_t s = 0; s < samples; ++s, ++at) film.add(x, y, filter_weights_[at] * sums_[at]);
+      for (std::uint32_t s = 0; s < samples; ++s, ++at)
+        film.add(x, y, sums_[at], foregrounds_[at], filter_weights_[at]);
+}
+
+RenderCounts VolpathIntegrator::counts() const {
+  RenderCounts counts = counts_;
+  for (const TrackCounts& tracking : {media_.counts(), shadow_media_.counts()}) {
+    counts.cells += tracking.steps;
+    counts.look_ups += tracking.look_ups;
+    counts.majorant_violations += tracking.majorant_violations;
+  }
+  return counts;
 }
 
 // The last paths of a tile can be long ones, and the stages go through all places: moves the paths to the first ones.
@@ -246,8 +259,10 @@ void VolpathIntegrator::place_lights_along_flights() {
 // What becomes of paths that met no medium.
 void VolpathIntegrator::end_flights() {
   const bool has_surfaces = intersector_.has_surfaces();
+  std::uint32_t rays = 0, collisions = 0, surface_hits = 0;
   for (std::uint32_t i = 0; i < places_; ++i) {
     if (!(paths_.ray.t_max[i] > 0)) continue;
+    ++rays;
     if (media_.is_chromatic())
       for (int c = 0; c < 3; ++c) {
         paths_.throughput[c][i] *= paths_.flight.weight[c][i];
@@ -255,22 +270,33 @@ void VolpathIntegrator::end_flights() {
       }
     const bool has_surface = has_surfaces && hits_[i].shape >= 0;
     const float passed = paths_.flight.passed[i];
+    float share = 1;  // of the path, that goes on
     if (passed > 0 && has_surface) {
       // Two paths would have to go on; one of them does.
       if (kernel::random_uniform(paths_.ray.key[i], paths_.ray.pixel[i], paths_.ray.sample[i], 0x80000001u) < passed)
         paths_.flight.medium[i] = no_medium;
     } else if (passed > 0) {
       see_environment(i, passed);
-      for (float* throughput : paths_.throughput) throughput[i] *= 1 - passed;
+      share = 1 - passed;
+      for (float* throughput : paths_.throughput) throughput[i] *= share;
     }
-    if (paths_.flight.medium[i] != no_medium) continue;
+    const bool collides = paths_.flight.medium[i] != no_medium;
+    if (paths_.depth[i] == 0 && (collides || has_surface))
+      foregrounds_[paths_.target[i]].add(
+          share, dot(at(paths_.ray.direction, i), axis_) * (collides ? paths_.flight.t[i] : hits_[i].t));
+    collisions += collides;
+    if (collides) continue;
     if (has_surface) {
+      ++surface_hits;
       meet_surface(i);
     } else {
       see_environment(i, 1);
       paths_.ray.t_max[i] = 0;
     }
   }
+  counts_.rays += rays;
+  counts_.collisions += collisions;
+  counts_.surface_hits += surface_hits;
 }
 
 // What contributions are divided by: the balance heuristic over heroes.
@@ -350,6 +376,7 @@ void VolpathIntegrator::make_room_for_shadow_rays(std::uint32_t more) {
 
 void VolpathIntegrator::gather_shadow_rays() {
   if (shadow_count_ == 0) return;
+  counts_.shadow_rays += shadow_count_;
   if (intersector_.has_surfaces()) {
     shadow_rays_.clear();
     for (std::uint32_t i = 0; i < shadow_count_; ++i)

@@ -17,6 +17,7 @@
 #include "image/filter.h"
 #include "render/light_table.h"
 #include "render/paths.h"
+#include "render/render_counts.h"
 #include "render/sample_points.h"
 #include "render/scatter.h"
 #include "render/surfaces.h"
@@ -38,9 +39,7 @@ class VolpathIntegrator {
   std::optional<kernel::vec3> too_many_media() const {
     return media_.too_many_media() ? media_.too_many_media() : shadow_media_.too_many_media();
   }
-  std::int64_t majorant_violations() const {
-    return media_.counts().majorant_violations + shadow_media_.counts().majorant_violations;
-  }
+  RenderCounts counts() const;
 
  private:
   struct Tile {
@@ -77,6 +76,7 @@ class VolpathIntegrator {
   const CompiledScene& scene_;
   const Intersector& intersector_;
   const Filter& filter_;
+  const kernel::vec3 axis_;  // the camera's
   const Aim aim_;
   const int last_depth_;  // paths that have been scattered more often meet no light any more
   MediumTasks media_, shadow_media_;
@@ -97,9 +97,11 @@ class VolpathIntegrator {
 
   std::vector<std::uint32_t> idle_;  // places of paths that are to be started
   std::vector<Spectrum> sums_;       // by sample of the tile
+  std::vector<Foreground> foregrounds_;
   std::vector<float> filter_weights_;
   std::vector<Ray> shadow_rays_;
   std::vector<std::uint8_t> blocked_;
+  RenderCounts counts_;  // but for those of tracking
 };
 
 }  // namespace brume

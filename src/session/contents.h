@@ -14,6 +14,7 @@ struct Scene::Contents {
   SceneDescription description;
   std::optional<Framing> framing;  // of a volume on its own
   std::string framing_note;
+  double reading_seconds = 0;
 };
 
 }  // namespace brume

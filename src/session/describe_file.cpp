@@ -3,9 +3,9 @@
 #include <array>
 
 #include "base/file.h"
-#include "image/image.h"
 #include "kernel/phase_table.h"
 #include "scene/read_scene.h"
+#include "session/describe_file.h"
 #include "session/errors.h"
 #include "volume/read_volume.h"
 
@@ -15,21 +15,6 @@ namespace {
 
 std::string text(const Vector3& v) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z); }
 std::string text(const Spectrum& s) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", s[0], s[1], s[2]); }
-
-std::string describe_volume(const std::string& path) {
-  const std::vector<GridInfo> grids = list_grids(path);
-  std::string lines = fmt::format("{}: {} grid{}\n", path, grids.size(), grids.size() == 1 ? "" : "s");
-  for (const GridInfo& grid : grids) {
-    lines += fmt::format("  {}: {}, {}{}\n", grid.name.empty() ? "(no name)" : grid.name, grid.type, grid.grid_class,
-                         grid.renderable ? "" : "; cannot be rendered");
-    lines += fmt::format("    {} x {} x {} voxels, {} active, each {:.6g} x {:.6g} x {:.6g}\n", grid.voxels[0],
-                         grid.voxels[1], grid.voxels[2], grid.active_voxels, grid.voxel_size.x, grid.voxel_size.y,
-                         grid.voxel_size.z);
-    lines += fmt::format("    bounds {} to {}\n", text(grid.bounds.lo), text(grid.bounds.hi));
-    if (!grid.note.empty()) lines += fmt::format("    {}\n", grid.note);
-  }
-  return lines;
-}
 
 struct DescribeMediumKind {
   std::string operator()(const HomogeneousMedium&) const { return "homogeneous"; }
@@ -92,21 +77,6 @@ std::string describe_scene(const std::string& path) {
   for (const LightDescription& light : scene.lights)
     lines += fmt::format("  light: {}\n", std::visit(DescribeLight{}, light.kind));
   for (const Diagnostic& warning : warnings) lines += to_string(warning) + '\n';
-  return lines;
-}
-
-std::string describe_picture(const std::string& path) {
-  const Image image = read_image(path);
-  std::string lines = fmt::format("{}: picture of {} x {} pixels\n", path, image.width, image.height);
-  if (suffix(path) != ".exr") return lines;
-  const ImageMetadata m = read_image_metadata(path);
-  lines += fmt::format("  {} floats\n", m.half ? "16-bit" : "32-bit");
-  if (!m.software.empty()) lines += fmt::format("  software: {}\n", m.software);
-  if (m.samples_per_pixel > 0)
-    lines += fmt::format("  {} samples per pixel in {:.1f} s, seed {}\n", m.samples_per_pixel, m.render_time_seconds,
-                         m.seed);
-  if (!image.variance.empty()) lines += "  with the variance of each pixel\n";
-  if (m.partial) lines += "  partial: not all of the samples asked for\n";
   return lines;
 }
 

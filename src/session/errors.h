@@ -3,12 +3,16 @@
 
 #include <new>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "base/diagnostics.h"
 #include "brume/scene.h"
 
 namespace brume {
+
+// Throws an Error that no file is at fault for.
+[[noreturn]] inline void fail(const std::string& message) { throw Error("error: " + message); }
 
 // Calls `body`; what it throws because of its input or for lack of memory goes on as Error.
 template <class Body>
@@ -18,9 +22,9 @@ auto with_public_errors(Body&& body) {
   } catch (const InputError& e) {
     throw Error(e.what());
   } catch (const std::bad_alloc&) {
-    throw Error("not enough memory");
+    fail("not enough memory");
   } catch (const std::length_error&) {  // a container that would pass what memory can ever hold
-    throw Error("not enough memory");
+    fail("not enough memory");
   }
 }
 

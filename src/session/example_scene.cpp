@@ -54,8 +54,8 @@ SceneDescription example_scene() {
   scene.media.push_back(cloud());
   scene.shapes.push_back(cloud_bounds());
   scene.shapes.push_back(ground());
-  scene.lights.push_back({DistantLight{normalize({-0.8, 0.6, 0.3}), Spectrum{{3.4f, 2.9f, 2.2f}}}, {}});
-  scene.lights.push_back({InfiniteLight{Spectrum{{0.17f, 0.27f, 0.46f}}}, {}});
+  scene.lights = {{DistantLight{normalize({-0.8, 0.6, 0.3}), Spectrum{{3.4f, 2.9f, 2.2f}}}, {}},
+                  {InfiniteLight{Spectrum{{0.17f, 0.27f, 0.46f}}}, {}}};
   return scene;
 }
 

@@ -70,6 +70,19 @@ std::vector<Box3> occupied_boxes(const VolumeGrid& grid) {
   return boxes;
 }
 
+float smallest_density(const VolumeGrid& grid) {
+  const kernel::BrickGrid g = view(grid.bricks);
+  const Index &first = grid.first_voxel, &end = grid.bricks.voxels;
+  float smallest = grid.bricks.max_value;
+  for (int z = first[2]; z < end[2]; ++z)
+    for (int y = first[1]; y < end[1]; ++y)
+      for (int x = first[0]; x < end[0]; ++x) {
+        smallest = std::min(smallest, kernel::grid_voxel(g, x, y, z));
+        if (smallest == 0) return 0;
+      }
+  return smallest;
+}
+
 double densest_row(const VolumeGrid& grid, int axis) {
   const kernel::BrickGrid g = view(grid.bricks);
   const auto b = static_cast<std::size_t>((axis + 1) % 3), c = static_cast<std::size_t>((axis + 2) % 3);

@@ -11,6 +11,9 @@ namespace brume {
 // that holds such voxels, the box around them.
 std::vector<Box3> occupied_boxes(const VolumeGrid& grid);
 
+// The smallest density of the data's box, as it is stored.
+float smallest_density(const VolumeGrid& grid);
+
 // The greatest sum of densities over the voxels of a row along `axis`.
 double densest_row(const VolumeGrid& grid, int axis);
 

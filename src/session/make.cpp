@@ -31,8 +31,8 @@ Procedural procedural_of(const VolumeRecipe& recipe) {
   const auto kind = static_cast<ProceduralName>(find_name("kind of volume", recipe.kind, names));
   Procedural procedural = usual_procedural(kind, recipe.size, recipe.seed);
   if (recipe.size < min_procedural_size || recipe.size > max_procedural_size)
-    throw Error(fmt::format("a size of {} voxels is out of range: from {} to {}", recipe.size, min_procedural_size,
-                            max_procedural_size));
+    fail(fmt::format("a size of {} voxels is out of range: from {} to {}", recipe.size, min_procedural_size,
+                     max_procedural_size));
   const std::vector<float> values = parameter_values(recipe.kind, parameters_of(procedural.table()), recipe.parameters);
   std::copy(values.begin(), values.end(), procedural.values.begin());
   return procedural;

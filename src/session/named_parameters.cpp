@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "base/diagnostics.h"
-#include "brume/scene.h"
+#include "session/errors.h"
 
 namespace brume {
 
@@ -23,8 +23,8 @@ float checked(const std::string& owner, const ParameterInfo& p, double value) {
   const auto rounded = static_cast<float>(value);
   const auto in_range = [&](double v) { return p.ends_included ? v >= p.lo && v <= p.hi : v > p.lo && v < p.hi; };
   if (!in_range(value) || !in_range(static_cast<double>(rounded)))
-    throw Error(fmt::format("{} of {} must be {} {} {} {}, found {}", p.name, owner, p.ends_included ? "from" : "above",
-                            p.lo, p.ends_included ? "to" : "and below", p.hi, value));
+    fail(fmt::format("{} of {} must be {} {} {} {}, found {}", p.name, owner, p.ends_included ? "from" : "above", p.lo,
+                     p.ends_included ? "to" : "and below", p.hi, value));
   return rounded;
 }
 
@@ -32,7 +32,7 @@ float checked(const std::string& owner, const ParameterInfo& p, double value) {
 
 std::size_t find_name(const std::string& what, const std::string& name, const std::vector<std::string_view>& valid) {
   const auto found = std::find(valid.begin(), valid.end(), name);
-  if (found == valid.end()) throw Error(fmt::format("unknown {} \"{}\"{}", what, name, advice(name, valid)));
+  if (found == valid.end()) fail(fmt::format("unknown {} \"{}\"{}", what, name, advice(name, valid)));
   return static_cast<std::size_t>(found - valid.begin());
 }
 
@@ -47,7 +47,7 @@ std::vector<float> parameter_values(const std::string& owner, const std::vector<
   }
   for (const auto& [name, value] : given)
     if (std::find(names.begin(), names.end(), name) == names.end())
-      throw Error(fmt::format("{} has no parameter \"{}\"{}", owner, name, advice(name, names)));
+      fail(fmt::format("{} has no parameter \"{}\"{}", owner, name, advice(name, names)));
   return values;
 }
 

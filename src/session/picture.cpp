@@ -5,16 +5,18 @@
 
 namespace brume {
 
-void Picture::write(const std::string& path) const {
+void Picture::write(const std::string& path, double exposure) const {
   with_public_errors([&] {
-    write_image(path, Image{width, height, pixels, variance}, metadata ? metadata->image : ImageMetadata{});
+    ImageMetadata file_metadata = metadata ? metadata->image : ImageMetadata{};
+    file_metadata.exposure = exposure;
+    write_image(path, Image{width, height, pixels, variance, alpha, depth}, file_metadata);
   });
 }
 
 void Picture::check_output(const std::string& path) {
   with_public_errors([&] {
-    check_image_suffix(path);
     check_writable(path);
+    check_image_suffix(path);
   });
 }
 

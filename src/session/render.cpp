@@ -3,29 +3,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "compile/compile.h"
 #include "image/film.h"
+#include "lanes/instruction_set.h"
 #include "render/backend.h"
 #include "session/contents.h"
 #include "session/errors.h"
 #include "session/instruction_set_choice.h"
 #include "session/picture.h"
+#include "session/stopwatch.h"
 #include "session/version.h"
 
 namespace brume {
 
 namespace {
-
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 // Passes on warnings as they come and keeps them for the picture.
 class Warnings {
@@ -57,8 +51,9 @@ constexpr double partial_picture_interval = 3;  // seconds
 // Adds samples to a film, pass by pass, until there are enough or the time is used.
 class Passes {
  public:
-  Passes(const RenderOptions& options, const Stopwatch& since_call, int samples)
-      : options_(options), since_call_(since_call), samples_(samples) {}
+  // A film of `pixels` pixels.
+  Passes(const RenderOptions& options, const Stopwatch& since_call, int samples, double pixels)
+      : options_(options), since_call_(since_call), samples_(samples), pixels_(pixels) {}
 
   // Passes of 1, 1, 2, 4, 8, 8, ... samples: a picture that is stopped early has had nearly the same number in every
   // pixel, and longer passes would only make stopping slower. Calls after_pass() between them. False where on_progress
@@ -94,7 +89,8 @@ class Passes {
 
   bool report(double samples_done) const {
     if (!options_.on_progress) return true;
-    Progress progress{samples_done / samples_, since_first_.seconds(), -1};
+    Progress progress{samples_done / samples_, since_first_.seconds(), -1, 0};
+    progress.samples_per_second = samples_done * pixels_ / std::max(progress.elapsed_seconds, 1e-9);
     // Before half a second has passed an extrapolation would say little.
     if (samples_done > 0 && progress.elapsed_seconds > 0.5)
       progress.remaining_seconds = progress.elapsed_seconds * (1 - progress.fraction) / progress.fraction;
@@ -110,6 +106,7 @@ class Passes {
   const Stopwatch& since_call_;
   const Stopwatch since_first_;
   int samples_;
+  double pixels_;
 };
 
 // Camera space to [0, 1] across the picture: the inverse of what CompiledCamera says of its rays. The third row makes
@@ -146,6 +143,35 @@ ImageMetadata make_metadata(const CompiledScene& scene, const SceneDescription& 
   return metadata;
 }
 
+std::int64_t volume_bytes(const CompiledScene& scene) {
+  std::size_t words = 0;
+  for (const CompiledGrid& grid : scene.grids) words += grid.table.size() + grid.words.size() + grid.majorants.size();
+  return static_cast<std::int64_t>(words * sizeof(std::uint32_t));
+}
+
+// But for the times.
+Statistics make_statistics(const CompiledScene& scene, const Film& film, const RenderCounts& counts) {
+  using Kind = CompiledIntegrator::Kind;
+  Statistics s;
+  s.software = software_name();
+  s.instruction_set = current_instruction_set().title;
+  s.integrator = scene.integrator.kind == Kind::classic     ? "classic"
+                 : scene.integrator.kind == Kind::reference ? "reference"
+                                                            : "volpath";
+  s.samples = film.samples();
+  s.rays = counts.rays;
+  s.shadow_rays = counts.shadow_rays;
+  s.collisions = counts.collisions;
+  s.surface_hits = counts.surface_hits;
+  s.majorant_cells = counts.cells;
+  s.look_ups = counts.look_ups;
+  s.majorant_violations = counts.majorant_violations;
+  s.invalid_samples = film.invalid_samples();
+  s.volume_bytes = volume_bytes(scene);
+  s.peak_bytes = peak_memory();
+  return s;
+}
+
 Picture make_picture(const Film& film, const CompiledScene& scene, const SceneDescription& description,
                      const RenderOptions& options, double seconds, bool partial) {
   Picture picture;
@@ -153,6 +179,8 @@ Picture make_picture(const Film& film, const CompiledScene& scene, const SceneDe
   picture.width = image.width;
   picture.height = image.height;
   picture.pixels = std::move(image.pixels);
+  picture.alpha = std::move(image.alpha);
+  picture.depth = std::move(image.depth);
   if (options.variance) picture.variance = film.variance();
   picture.samples_per_pixel = film.samples_per_pixel();
   picture.partial = partial;
@@ -163,33 +191,42 @@ Picture make_picture(const Film& film, const CompiledScene& scene, const SceneDe
   return picture;
 }
 
-Picture render_description(const SceneDescription& description, const RenderOptions& options) {
+Picture render_contents(const Scene::Contents& contents, const RenderOptions& options) {
+  const SceneDescription& description = contents.description;
   const Stopwatch watch;
   Warnings warnings(options);
   apply_instruction_set_choice();
   const int samples = options.seconds > 0 ? options.max_samples : description.sampler.pixel_samples;
   if (options.variance && samples < 2)
-    throw Error("the variance can be estimated from two samples per pixel on, not from one");
+    fail("the variance can be estimated from two samples per pixel on, not from one");
   const CompiledScene scene = compile_scene(description, thread_count(options.threads), warnings);
   const std::unique_ptr<Backend> backend = make_cpu_backend();
   backend->prepare(scene);
+  const double prepared = watch.seconds();
   Film film(scene.crop.width(), scene.crop.height(), scene.film_response);
 
   const auto picture_now = [&](bool partial) {
     return make_picture(film, scene, description, options, watch.seconds(), partial);
   };
   double shown = -partial_picture_interval;  // when the last partial picture was shown
-  const bool finished = Passes(options, watch, samples).render(*backend, film, [&] {
+  const double pixels = static_cast<double>(film.width()) * film.height();
+  const bool finished = Passes(options, watch, samples, pixels).render(*backend, film, [&] {
     if (!options.on_partial_picture || watch.seconds() < shown + partial_picture_interval) return;
     options.on_partial_picture(picture_now(true));
     shown = watch.seconds();
   });
   Picture picture = picture_now(!finished);
-  if (backend->majorant_violations() > 0)
+  Statistics& statistics = picture.statistics;
+  statistics = make_statistics(scene, film, backend->counts());
+  statistics.threads = thread_count(options.threads);
+  statistics.reading_seconds = contents.reading_seconds;
+  statistics.preparing_seconds = prepared;
+  statistics.rendering_seconds = watch.seconds() - prepared;
+  if (statistics.majorant_violations > 0)
     warnings.add(
         fmt::format("warning: {} densities exceeded the bound that tracking relies on; the picture is biased, and "
                     "this is a fault in Brume",
-                    backend->majorant_violations()));
+                    statistics.majorant_violations));
   if (picture.invalid_samples > 0)
     warnings.add(fmt::format("warning: {} samples were not finite numbers and were left out", picture.invalid_samples));
   picture.warnings = warnings.take();
@@ -199,7 +236,7 @@ Picture render_description(const SceneDescription& description, const RenderOpti
 }  // namespace
 
 Picture render(const Scene& scene, const RenderOptions& options) {
-  return with_public_errors([&] { return render_description(scene.contents().description, options); });
+  return with_public_errors([&] { return render_contents(scene.contents(), options); });
 }
 
 }  // namespace brume

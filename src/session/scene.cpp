@@ -11,6 +11,7 @@
 #include "session/contents.h"
 #include "session/errors.h"
 #include "session/example_scene.h"
+#include "session/stopwatch.h"
 #include "volume/read_volume.h"
 
 namespace brume {
@@ -22,26 +23,38 @@ constexpr std::int64_t max_pixels = std::int64_t{1} << 28;
 
 void check_resolution(int width, int height) {
   if (width < 1 || height < 1 || width > max_edge || height > max_edge || std::int64_t{width} * height > max_pixels)
-    throw Error(fmt::format("resolution {}x{} is out of range: each side from 1 to {} pixels, together at most {}",
-                            width, height, max_edge, max_pixels));
+    fail(fmt::format("resolution {}x{} is out of range: each side from 1 to {} pixels, together at most {}", width,
+                     height, max_edge, max_pixels));
 }
 
 void check_crop_window(const FilmDescription& film) {
   const auto [x0, x1, y0, y1] = film.crop_window;
   if (!(0 <= x0 && x0 < x1 && x1 <= 1 && 0 <= y0 && y0 < y1 && y1 <= 1))
-    throw Error(fmt::format("crop window {},{},{},{}: must be x0,x1,y0,y1 with 0 <= x0 < x1 <= 1 and 0 <= y0 < y1 <= 1",
-                            x0, x1, y0, y1));
+    fail(fmt::format("crop window {},{},{},{}: must be x0,x1,y0,y1 with 0 <= x0 < x1 <= 1 and 0 <= y0 < y1 <= 1", x0,
+                     x1, y0, y1));
   if (const PixelBox crop = cropped_pixels(film); crop.width() < 1 || crop.height() < 1)
-    throw Error(fmt::format("crop window {},{},{},{} holds no pixel of the {} x {} pixels", x0, x1, y0, y1, film.width,
-                            film.height));
+    fail(fmt::format("crop window {},{},{},{} holds no pixel of the {} x {} pixels", x0, x1, y0, y1, film.width,
+                     film.height));
+}
+
+// Bounds in pixels as the crop window that has them.
+std::array<double, 4> window_of(const std::array<int, 4>& bounds, const FilmDescription& film) {
+  const auto [x0, x1, y0, y1] = bounds;
+  if (!(0 <= x0 && x0 < x1 && x1 <= film.width && 0 <= y0 && y0 < y1 && y1 <= film.height))
+    fail(
+        fmt::format("pixel bounds {},{},{},{}: must be x0,x1,y0,y1 with 0 <= x0 < x1 <= {} and 0 <= y0 < y1 <= {}, the "
+                    "size of the picture",
+                    x0, x1, y0, y1, film.width, film.height));
+  const double width = film.width, height = film.height;
+  return {x0 / width, x1 / width, y0 / height, y1 / height};
 }
 
 void check_integrator(const std::string& name) {
   if (std::find(std::begin(integrator_names), std::end(integrator_names), name) != std::end(integrator_names)) return;
   const std::string_view nearest = nearest_name(name, integrator_names);
-  throw Error(fmt::format("unknown integrator \"{}\"{}; valid are {}", name,
-                          nearest.empty() ? "" : fmt::format(", did you mean \"{}\"?", nearest),
-                          fmt::join(integrator_names, ", ")));
+  fail(fmt::format("unknown integrator \"{}\"{}; valid are {}", name,
+                   nearest.empty() ? "" : fmt::format(", did you mean \"{}\"?", nearest),
+                   fmt::join(integrator_names, ", ")));
 }
 
 void check_is_scene(const std::string& path) {
@@ -80,34 +93,40 @@ Scene Scene::load(const std::string& path, std::vector<std::string>& warnings) {
 
 Scene Scene::load_files(const std::vector<std::string>& paths, std::vector<std::string>& warnings, bool strict) {
   return with_public_errors([&] {
+    const Stopwatch watch;
     if (paths.size() == 1 && is_volume_file(paths[0])) return frame_volume(paths[0]);
     for (const std::string& path : paths) check_is_scene(path);
-    return Scene(std::make_unique<Contents>(Contents{read_description(paths, warnings, strict), {}, {}}));
+    SceneDescription description = read_description(paths, warnings, strict);
+    return Scene(std::make_unique<Contents>(Contents{std::move(description), {}, {}, watch.seconds()}));
   });
 }
 
 Scene Scene::frame_volume(const std::string& path, const std::string& grid) {
   return with_public_errors([&] {
+    const Stopwatch watch;
     if (!is_volume_file(path))
       throw InputError(path, fmt::format("not a volume file, whose suffix would be {}", volume_suffixes));
     FramedVolume framed = brume::frame_volume(path, grid);
-    return Scene(std::make_unique<Contents>(Contents{std::move(framed.scene), framed.framing, std::move(framed.note)}));
+    return Scene(std::make_unique<Contents>(
+        Contents{std::move(framed.scene), framed.framing, std::move(framed.note), watch.seconds()}));
   });
 }
 
-Scene Scene::example() { return Scene(std::make_unique<Contents>(Contents{example_scene(), {}, {}})); }
+Scene Scene::example() { return Scene(std::make_unique<Contents>(Contents{example_scene(), {}, {}, 0})); }
 
 void Scene::apply(const SceneOptions& options) {
   SceneDescription& scene = contents_->description;
   FilmDescription film = scene.film;
-  film.width = options.width.value_or(film.width);
-  film.height = options.height.value_or(film.height);
+  const auto draft = [&](int number) { return options.quick ? std::max(1, number / 4) : number; };
+  film.width = options.width.value_or(draft(film.width));
+  film.height = options.height.value_or(draft(film.height));
+  if (options.pixel_bounds) film.crop_window = window_of(*options.pixel_bounds, film);
   film.crop_window = options.crop_window.value_or(film.crop_window);
   if (options.width || options.height) check_resolution(film.width, film.height);
   check_crop_window(film);
-  const int samples = options.samples_per_pixel.value_or(scene.sampler.pixel_samples);
+  const int samples = options.samples_per_pixel.value_or(draft(scene.sampler.pixel_samples));
   if (options.samples_per_pixel && (samples < 1 || samples > max_samples))
-    throw Error(fmt::format("{} samples per pixel are out of range: from 1 to {}", samples, max_samples));
+    fail(fmt::format("{} samples per pixel are out of range: from 1 to {}", samples, max_samples));
   if (options.integrator) check_integrator(*options.integrator);
 
   scene.film = std::move(film);

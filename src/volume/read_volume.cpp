@@ -74,6 +74,13 @@ std::size_t choose_grid(const std::string& path, const std::vector<GridInfo>& gr
                                      list_of_names(grids)));
 }
 
+VolumeGrid read_grid(const Format& format, const std::string& path, std::string_view bytes,
+                     const std::vector<GridInfo>& grids, std::size_t index, Storage storage) {
+  const GridInfo& grid = grids.at(index);
+  if (!grid.renderable) throw InputError(path, fmt::format("grid \"{}\" cannot be rendered: {}", grid.name, grid.note));
+  return format.read(path, bytes, index, storage);
+}
+
 void note_repeated_names(std::vector<GridInfo>& grids) {
   for (std::size_t i = 0; i < grids.size(); ++i) {
     const std::size_t first = find_grid(grids, without_number(grids[i].name));
@@ -101,11 +108,13 @@ VolumeGrid read_volume(const std::string& path, const std::string& name, Storage
   const Format& format = format_of(path);
   const std::string bytes = read_file(path);
   const std::vector<GridInfo> grids = format.list(path, bytes);
-  const std::size_t chosen = choose_grid(path, grids, name);
-  if (!grids[chosen].renderable) {
-    throw InputError(path, fmt::format("grid \"{}\" cannot be rendered: {}", grids[chosen].name, grids[chosen].note));
-  }
-  return format.read(path, bytes, chosen, storage);
+  return read_grid(format, path, bytes, grids, choose_grid(path, grids, name), storage);
+}
+
+VolumeGrid read_volume(const std::string& path, std::size_t index, Storage storage) {
+  const Format& format = format_of(path);
+  const std::string bytes = read_file(path);
+  return read_grid(format, path, bytes, format.list(path, bytes), index, storage);
 }
 
 }  // namespace brume

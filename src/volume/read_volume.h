@@ -14,6 +14,7 @@ struct GridInfo {
   std::string type;             // "float", "half", "vec3s", ...: the format's own word
   std::string grid_class;       // "fog volume", "level set", "staggered", "dense grid", "unknown"
   std::array<int, 3> voxels{};  // active bounding box
+  std::array<std::int64_t, 3> first_voxel{};
   std::int64_t active_voxels = 0;
   Vector3 voxel_size;
   Box3 bounds;              // in the file's world space
@@ -36,5 +37,7 @@ std::vector<GridInfo> list_grids(const std::string& path);
 // value stored for a voxel, marked active or not, as OpenVDB's and NanoVDB's own samplers take it, and 0 outside the
 // box of the active voxels (of all voxels in a .vol). Throws InputError.
 VolumeGrid read_volume(const std::string& path, const std::string& name, Storage storage);
+// The grid that list_grids has at `index`.
+VolumeGrid read_volume(const std::string& path, std::size_t index, Storage storage);
 
 }  // namespace brume

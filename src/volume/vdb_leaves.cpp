@@ -81,6 +81,7 @@ void describe_placement(GridInfo& info, const ActiveVoxels& active, const Transf
     const auto a = static_cast<std::size_t>(axis);
     if (active.box.lo[a] > active.box.hi[a]) return;
     const double voxels = static_cast<double>(active.box.hi[a]) - static_cast<double>(active.box.lo[a]) + 1;
+    info.first_voxel[a] = active.box.lo[a];
     info.voxels[a] = static_cast<int>(std::min(voxels, 2147483647.0));
     box.lo[axis] = static_cast<double>(active.box.lo[a]) - 0.5;
     box.hi[axis] = static_cast<double>(active.box.hi[a]) + 0.5;

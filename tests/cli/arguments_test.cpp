@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "cli/run_program.h"
 #include "image/temporary_folder.h"
@@ -20,12 +21,15 @@ TEST(Arguments, HelpFitsOnAScreen) {
   const Outcome outcome = run(folder.path(), {"--help"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.error, IsEmpty());
-  EXPECT_LE(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 30);
+  EXPECT_LE(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 40);
+  std::istringstream lines(outcome.out);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
   for (const char* word : {"--output",    "--spp",         "--time",        "--cropwindow", "--write-partial-images",
                            "brume bench", "--seed",        "--nthreads",    "--resolution", "--integrator",
                            "--grid",      "--write-scene", "--variance",    "--quiet",      "--version",
                            "--example",   "brume info",    "brume compare", "brume make",   "brume phase",
-                           "BRUME_ISA",   ".pfm"})
+                           "BRUME_ISA",   ".pfm",          "--pixelbounds", "--quick",      "--exposure",
+                           "--stats ",    "--stats-json"})
     EXPECT_THAT(outcome.out, HasSubstr(word));
   EXPECT_EQ(run(folder.path(), {"render", "--help"}).out, outcome.out);
   EXPECT_THAT(run(folder.path(), {"info", "--help"}).out, StartsWith("Usage: brume info FILE"));
@@ -80,6 +84,15 @@ TEST(Arguments, MistakesAreNamedAndNothingIsWritten) {
       {{"a.pbrt", "--cropwindow", "0.5,0.5,0,1"}, "0 <= x0 < x1 <= 1"},
       {{"a.pbrt", "--cropwindow", "0,1.5,0,1"}, "crop window 0,1.5,0,1"},
       {{"a.pbrt", "--cropwindow", "0.01,0.02,0,1"}, "holds no pixel of the 16 x 12"},
+      {{"a.pbrt", "--pixelbounds", "0,8,0,4.5"}, "is not X0,X1,Y0,Y1"},
+      {{"a.pbrt", "--pixelbounds", "0,17,0,12"}, "0 <= x0 < x1 <= 16 and 0 <= y0 < y1 <= 12"},
+      {{"a.pbrt", "--pixelbounds", "8,8,0,12"}, "pixel bounds 8,8,0,12"},
+      {{"a.pbrt", "--pixelbounds", "-1,8,0,12"}, "pixel bounds -1,8,0,12"},
+      {{"a.pbrt", "--pixelbounds", "0,17,0,12", "--resolution", "16x12"}, "the size of the picture"},
+      {{"a.pbrt", "--pixelbounds", "0,8,0,8", "--cropwindow", "0,1,0,1"}, "only one can be given"},
+      {{"a.pbrt", "--exposure", "bright"}, "--exposure: \"bright\" is not a number from -100 to 100"},
+      {{"a.pbrt", "--exposure", "1", "-o", "x.exr"}, "--exposure needs a .png"},
+      {{"a.pbrt", "--stats-json", "missing/s.json"}, "missing/s.json: error: cannot be written: there is no folder"},
       {{"a.pbrt", "--integrator", "clasic"}, "did you mean \"classic\"?"},
       {{"a.pbrt", "--grid", "density"}, "a.pbrt: error: not a volume file"},
       {{"a.pbrt", "--example"}, "--example takes no scene"},
@@ -92,12 +105,15 @@ TEST(Arguments, MistakesAreNamedAndNothingIsWritten) {
       {{"a.obj"}, "scenes are .pbrt or .pbrt.gz files, volumes .vdb, .nvdb or .vol"},
       {{"info", "a.obj"}, ".nvdb"},
       {{"info"}, "needs the name of a file"},
+      {{"make", "clod", "-o", "a.vdb"}, "error: unknown kind of volume \"clod\"; did you mean cloud?"},
+      {{"phase", "mie", "d=900"}, "error: d of mie must be from 0.1 to 50"},
   };
   for (const BadArguments& c : cases) {
     const Outcome outcome = run(folder.path(), c.arguments);
     const std::string shown = testing::PrintToString(c.arguments);
     EXPECT_EQ(outcome.exit_code, 1) << shown;
     EXPECT_THAT(outcome.error, HasSubstr(c.message)) << shown;
+    EXPECT_THAT(outcome.error, HasSubstr("error: ")) << shown;
     EXPECT_THAT(outcome.out, IsEmpty()) << shown;
   }
   EXPECT_THAT(folder.names(), ElementsAre("a.pbrt"));

@@ -61,6 +61,12 @@ TEST(Framing, InfoAndAMissingGrid) {
   const TemporaryFolder folder;
   const Outcome info = run(folder.path(), {"info", volume});
   EXPECT_THAT(info.out, HasSubstr("1 grid\n  density: half, fog volume\n    23 x 15 x 11 voxels"));
+  // A density of 1 in four units across the middle.
+  for (const char* part :
+       {"index (9, 13, 15) to (31, 27, 25)", "bounds (-2.875, -1.875, -1.375) to (2.875, 1.875, 1.375)",
+        "each 0.25 x 0.25 x 0.25", "densities from 0 to 1, mean 0.2542; 62.1 % of the voxels",
+        "mean free path 1 at the greatest density", "optical depth 4 along", "\"scale\" 2.5 would"})
+    EXPECT_THAT(info.out, HasSubstr(part));
   const Outcome missing = run(folder.path(), {volume, "--grid", "temperature"});
   EXPECT_EQ(missing.exit_code, 1);
   EXPECT_THAT(missing.error, HasSubstr("density"));
@@ -95,6 +101,21 @@ TEST(Framing, FitsEveryShapeOfPicture) {
     EXPECT_GE(half_width, framing.half_width - 1e-9);
     EXPECT_GE(half_height, framing.half_height - 1e-9);
     EXPECT_TRUE(half_width < framing.half_width + 1e-9 || half_height < framing.half_height + 1e-9);
+  }
+}
+
+// Values of 2 throughout, but for one of 1 and, in the twin, one of 0: in an array that begins before them.
+TEST(GridExtent, SmallestDensity) {
+  for (const float smallest : {1.0f, 0.0f}) {
+    std::vector<float> values(20 * 12 * 9);
+    for (int z = 1; z < 9; ++z)
+      for (int y = 2; y < 12; ++y)
+        for (int x = 3; x < 20; ++x) values[static_cast<std::size_t>((z * 12 + y) * 20 + x)] = 2;
+    values[(5 * 12 + 7) * 20 + 11] = smallest;
+    VolumeGrid grid;
+    grid.bricks = make_brick_grid({20, 12, 9}, values, Storage::f32);
+    grid.first_voxel = {3, 2, 1};
+    EXPECT_EQ(smallest_density(grid), smallest);
   }
 }
 

@@ -20,8 +20,8 @@ using testing::HasSubstr;
 using Arguments = std::vector<std::string>;
 
 // More samples, or more time, than a test has.
-const Arguments many_samples = {"a.pbrt", "--spp", "16000000", "--integrator", "path", "-o", "b.exr"};
-const Arguments much_time = {"a.pbrt", "--time", "1e6", "--integrator", "path", "-o", "b.exr"};
+const Arguments many_samples = {"a.pbrt", "--spp", "16000000", "--integrator", "path", "-o", "b.exr", "-o", "b.png"};
+const Arguments much_time = {"a.pbrt", "--time", "1e6", "--integrator", "path", "-o", "b.exr", "-o", "b.png"};
 
 // The warning about the integrator comes when rendering is about to begin.
 void wait_for_start(const RunningProgram& program) {
@@ -40,7 +40,8 @@ void expect_partial_picture(const Arguments& arguments, int signal) {
   EXPECT_EQ(outcome.exit_code, 130);
   EXPECT_THAT(outcome.error, HasSubstr("interrupted"));
   EXPECT_THAT(outcome.error, HasSubstr("partial"));
-  EXPECT_THAT(folder.names(), ElementsAre("a.pbrt", "b.exr"));
+  EXPECT_THAT(folder.names(), ElementsAre("a.pbrt", "b.exr", "b.png"));
+  EXPECT_THAT(bytes_of(folder.file("b.png")), HasSubstr("partial: stopped before its end"));
   const ImageMetadata metadata = read_image_metadata(folder.file("b.exr"));
   EXPECT_TRUE(metadata.partial);
   EXPECT_GT(metadata.samples_per_pixel, 0);
@@ -65,7 +66,7 @@ TEST(Interrupt, PartialImagesAreThereWhileItRenders) {
       ASSERT_NO_FATAL_FAILURE(wait_for_start(program));
       program.send(SIGKILL);
     }
-    ASSERT_EQ(folder.names().size(), asked ? 2u : 1u);
+    ASSERT_EQ(folder.names().size(), asked ? 3u : 1u);
     if (!asked) continue;
     const ImageMetadata metadata = read_image_metadata(folder.file("b.exr"));
     EXPECT_TRUE(metadata.partial);

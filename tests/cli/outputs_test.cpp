@@ -1,7 +1,11 @@
 // What the program writes: the files asked for, the same bits whenever the same is asked, nothing else.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <png.h>
+#include <sys/resource.h>
 
+#include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 
@@ -120,6 +124,86 @@ TEST_F(Outputs, ACropWindowHasThePixelsOfTheWholePicture) {
   EXPECT_EQ(bytes("again.pfm"), bytes("whole.pfm"));
 }
 
+TEST_F(Outputs, PixelBoundsAreTheCropWindowInPixels) {
+  expect_success({"a.pbrt", "--pixelbounds", "3,11,5,12", "-o", "bounds.pfm"});
+  EXPECT_THAT(error_, HasSubstr("bounds.pfm: 8 x 7 pixels, "));
+  expect_success({"a.pbrt", "--cropwindow", "0.1875,0.6875,0.41666667,1", "-o", "window.pfm"});
+  EXPECT_EQ(bytes("bounds.pfm"), bytes("window.pfm"));
+}
+
+TEST_F(Outputs, QuickIsAQuarterOfWhatIsNotSet) {
+  expect_success({"a.pbrt", "--quick", "-o", "a.pfm"});
+  EXPECT_THAT(error_, HasSubstr("a.pfm: 4 x 3 pixels, 1 samples per pixel"));
+  expect_success({"a.pbrt", "--resolution", "16x12", "--quick", "-o", "a.pfm"});
+  EXPECT_THAT(error_, HasSubstr("a.pfm: 16 x 12 pixels, 1 samples per pixel"));
+  expect_success({"a.pbrt", "--spp", "9", "--quick", "-o", "a.pfm"});
+  EXPECT_THAT(error_, HasSubstr("a.pfm: 4 x 3 pixels, 9 samples per pixel"));
+}
+
+TEST_F(Outputs, InfoShowsAPicture) {
+  expect_success({"a.pbrt", "--pixelbounds", "3,11,5,12", "--seed", "7", "-o", "a.exr"});
+  const std::string shown = run(folder_.path(), {"info", "a.exr"}).out;
+  for (const char* part :
+       {"picture of 8 x 7 pixels", "data window (3, 5) to (10, 11), display window (0, 0) to (15, 11)",
+        "channels: A half, B half, G half, R half, Z float\n", "samplesPerPixel: 2\n", "seed: 7\n", "partial: 0\n",
+        "software: Brume " BRUME_VERSION "\n", "worldToCamera: (1 0 0 0) (0 1 0 0) (0 0 -1 0) (0 0 5 1)\n",
+        "worldToNDC: (", "renderTimeSeconds: "})
+    EXPECT_THAT(shown, HasSubstr(part));
+}
+
+// A stop doubles. Only .png files have it.
+TEST_F(Outputs, ExposureIsForPngAlone) {
+  const auto first_value = [&](const std::string& name) {
+    png_image png{};
+    png.version = PNG_IMAGE_VERSION;
+    EXPECT_TRUE(png_image_begin_read_from_file(&png, folder_.file(name).c_str()));
+    png.format = PNG_FORMAT_RGB;
+    std::vector<png_byte> values(PNG_IMAGE_SIZE(png));
+    EXPECT_TRUE(png_image_finish_read(&png, nullptr, values.data(), 0, nullptr));
+    return static_cast<int>(values.front());
+  };
+  expect_success({"a.pbrt", "-o", "a.pfm", "-o", "a.png"});
+  expect_success({"a.pbrt", "--exposure", "1", "-o", "b.pfm", "-o", "b.png"});
+  expect_success({"a.pbrt", "--exposure", "-1.5", "-o", "c.png"});
+  const float value = read_image(folder_.file("a.pfm")).pixels.front();
+  EXPECT_EQ(first_value("a.png"), srgb_from_linear(value));
+  EXPECT_EQ(first_value("b.png"), srgb_from_linear(2 * value));
+  EXPECT_EQ(first_value("c.png"), srgb_from_linear(std::exp2(-1.5f) * value));
+  EXPECT_EQ(bytes("a.pfm"), bytes("b.pfm"));
+}
+
+// Of the value of a member in the file.
+double member(const std::string& json, const std::string& name) {
+  const std::size_t at = json.find('"' + name + "\": ");
+  EXPECT_NE(at, std::string::npos) << name;
+  return at == std::string::npos ? -1 : std::strtod(json.c_str() + at + name.size() + 4, nullptr);
+}
+
+TEST_F(Outputs, StatisticsCountWhatWasDone) {
+  for (const std::string integrator : {"classic", "reference", "volpath"}) {
+    expect_success({"a.pbrt", "--integrator", integrator, "-o", "a.pfm", "--stats", "--stats-json", "s.json"});
+    for (const char* part : {"samples", "384", "shadow rays", "look-ups of density", "rendering", "memory"})
+      EXPECT_THAT(error_, HasSubstr(part));
+    const std::string json = bytes("s.json");
+    EXPECT_THAT(json, HasSubstr("\"integrator\": \"" + integrator + "\""));
+    EXPECT_EQ(member(json, "samples"), 16 * 12 * 2);
+    // One ray a sample, and one more for each scattering at the most: maxdepth is 1.
+    const double rays = member(json, "rays"), collisions = member(json, "collisions");
+    EXPECT_GE(rays, 384);
+    EXPECT_LE(rays, 384 + collisions);
+    EXPECT_GT(member(json, "shadow_rays"), 0);
+    EXPECT_GT(member(json, "look_ups"), 0);
+    if (integrator == "classic")
+      EXPECT_EQ(collisions, 0);
+    else
+      EXPECT_GT(collisions, 20);
+    EXPECT_EQ(member(json, "majorant_violations"), 0);
+    EXPECT_GT(member(json, "volume_bytes"), 512 * 2);
+    EXPECT_GT(member(json, "peak_bytes"), 1e6);
+    EXPECT_GT(member(json, "rendering_seconds"), 0);
+  }
+}
+
 TEST_F(Outputs, OtherInstructionSetsRender) {
   expect_success({"a.pbrt", "-o", "best.pfm"});
   expect_success({"a.pbrt", "-o", "scalar.pfm"}, {{"BRUME_ISA", "scalar"}});
@@ -156,7 +240,53 @@ TEST_F(Outputs, BadOutputsAreRefusedBeforeRendering) {
   const Outcome outcome = run(folder_.path(), {"a.pbrt", "-o", "b.pfm", "-o", "folder.pfm"});
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.error, HasSubstr("folder.pfm: error: cannot be written: it is a folder"));
+  EXPECT_THAT(run(folder_.path(), {"a.pbrt", "-o", "."}).error, HasSubstr("it is a folder"));
   EXPECT_THAT(folder_.names(), ElementsAre("a.pbrt", "folder.pfm"));
+}
+
+// The limit on a file's size, which programs inherit, stands in for a full disk: writing fails after some bytes, when
+// all is rendered.
+TEST_F(Outputs, AFullDiskLeavesNothingBehind) {
+  write_bytes_to(folder_.file("old.pfm"), "old");
+  const auto run_with_a_small_disk = [&](const std::vector<std::string>& arguments) {
+    rlimit before{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    const rlimit small{8192, before.rlim_max};
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    setrlimit(RLIMIT_FSIZE, &small);
+    const Outcome outcome = run(folder_.path(), arguments);
+    setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+    EXPECT_EQ(outcome.exit_code, 1);
+    return outcome.error;
+  };
+  EXPECT_EQ(run_with_a_small_disk({"a.pbrt", "--resolution", "64x48", "--quiet", "-o", "old.pfm"}),
+            "old.pfm: error: cannot be written: File too large\n");
+  EXPECT_EQ(run_with_a_small_disk({"make", "cloud", "--size", "48", "--quiet", "-o", "c.vdb"}),
+            "c.vdb: error: cannot be written: File too large\n");
+  EXPECT_EQ(bytes("old.pfm"), "old");
+  EXPECT_THAT(folder_.names(), ElementsAre("a.pbrt", "old.pfm"));
+}
+
+TEST_F(Outputs, AFullStandardOutputIsAnError) {
+  const std::string command = "cd '" + folder_.path() + "' && " BRUME_PROGRAM " info a.pbrt > /dev/full 2> error";
+  EXPECT_NE(std::system(command.c_str()), 0);
+  EXPECT_EQ(bytes("error"), "error: the standard output cannot be written: No space left on device\n");
+}
+
+// A terminal sees the progress, with speed; a file sees only what stays.
+TEST_F(Outputs, ProgressIsShownOnATerminal) {
+  const std::string render = BRUME_PROGRAM " a.pbrt --resolution 64x48 --time 1.2 -o a.pfm";
+  const std::string on_terminal = "script --quiet --return --command '" + render + "' seen < /dev/null > /dev/null";
+  if (std::system("command -v script > /dev/null") != 0) GTEST_SKIP() << "there is no program script";
+  EXPECT_EQ(std::system(("cd '" + folder_.path() + "' && " + on_terminal).c_str()), 0);
+  const std::string seen = bytes("seen");
+  for (const char* part :
+       {"\rRendering:   0 %, 0:00 elapsed", " remaining, ", " samples a second\033[K", "\r\033[Ka.pfm: "})
+    EXPECT_THAT(seen, HasSubstr(part));
+  expect_success({"a.pbrt", "--resolution", "64x48", "--time", "0.2", "-o", "a.pfm"});
+  EXPECT_THAT(error_, Not(HasSubstr("Rendering")));
+  EXPECT_THAT(error_, Not(HasSubstr("\r")));
 }
 
 // The same bits from the file, from it packed, and from either on the standard input.

@@ -39,6 +39,20 @@ TEST(Film, VariancesOfTheMeans) {
   for (std::size_t i = 3; i < 9; ++i) EXPECT_TRUE(std::isnan(variance[i]));  // of one sample and of none
 }
 
+// With weights that are negative in places, alpha is the weighted mean, as the colours are, and depth is not weighted.
+TEST(Film, AlphaAndDepthOfSamples) {
+  Film film(2, 1);
+  const Spectrum black;
+  film.add(0, 0, black, {1, 3}, 1.5f);
+  film.add(0, 0, black, {0.5f, 4}, -0.25f);
+  film.add(0, 0, black, {}, 1.75f);
+  const Image image = film.image();
+  EXPECT_FLOAT_EQ(image.alpha[0], (1.5f - 0.125f) / 3);
+  EXPECT_FLOAT_EQ(image.depth[0], 7 / 1.5f);
+  EXPECT_EQ(image.alpha[1], 0);
+  EXPECT_EQ(image.depth[1], std::numeric_limits<float>::infinity());
+}
+
 TEST(Film, TheOrderOfPixelsDoesNotMatter) {
   constexpr int width = 7, height = 5, samples = 9;
   Film by_pixel(width, height), by_sample(width, height);

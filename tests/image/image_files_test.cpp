@@ -13,6 +13,7 @@
 #include <set>
 
 #include "base/diagnostics.h"
+#include "image/exr_header.h"
 #include "image/image.h"
 #include "image/temporary_folder.h"
 
@@ -99,6 +100,27 @@ TEST(ImageFiles, TheVarianceIsALayerOfFloatsInExr) {
   EXPECT_THAT(read_image(folder.file("a.pfm")).variance, IsEmpty());
 }
 
+TEST(ImageFiles, AlphaAndDepthAreChannelsInExr) {
+  const TemporaryFolder folder;
+  Image image = test_image(3, 20);
+  for (int i = 0; i < 60; ++i) {
+    image.alpha.push_back(static_cast<float>(i) / 64);
+    image.depth.push_back(1e6f + static_cast<float>(i));  // more than a half holds
+  }
+  image.depth[7] = std::numeric_limits<float>::infinity();
+  ImageMetadata metadata = test_metadata();
+  for (const bool half : {false, true}) {
+    metadata.half = half;
+    write_image(folder.file("a.exr"), image, metadata);
+    const Image back = read_image(folder.file("a.exr"));
+    EXPECT_EQ(back.alpha, image.alpha);
+    EXPECT_EQ(back.depth, image.depth);
+    const Imf::InputFile file(folder.file("a.exr").c_str());
+    EXPECT_EQ(file.header().channels()["A"].type, half ? Imf::HALF : Imf::FLOAT);
+    EXPECT_EQ(file.header().channels()["Z"].type, Imf::FLOAT);
+  }
+}
+
 TEST(ImageFiles, HalvesAreRoundedAndStayFinite) {
   const TemporaryFolder folder;
   Image image{2, 1, {0.1f, 1e6f, -1e6f, 65504, 1, 0}};
@@ -145,6 +167,24 @@ TEST(ImageFiles, ExrMatricesActOnRowVectors) {
 }
 
 // A part of a larger picture says where it lies; the others are whole.
+TEST(ImageFiles, ExrHeaderAsText) {
+  const TemporaryFolder folder;
+  write_image(folder.file("a.exr"), test_image(2, 3), test_metadata());
+  const ExrHeader header = read_exr_header(folder.file("a.exr"));
+  EXPECT_THAT(header.data_window, ElementsAre(0, 0, 1, 2));
+  EXPECT_THAT(header.channels, ElementsAre(std::pair("B", "float"), std::pair("G", "float"), std::pair("R", "float")));
+  const auto value = [&](const std::string& name) {
+    for (const ExrAttribute& a : header.attributes)
+      if (a.name == name) return a.type + " " + a.value;
+    return std::string("none");
+  };
+  EXPECT_EQ(value("seed"), "string 4000000000");
+  EXPECT_EQ(value("samplesPerPixel"), "int 16");
+  EXPECT_EQ(value("renderTimeSeconds"), "float 2.5");
+  EXPECT_EQ(value("worldToNDC"), "m44f (1 5 0 0) (2 6 0 0) (3 7 0 1) (4 8 1 0)");
+  EXPECT_EQ(value("compression"), "none");
+}
+
 TEST(ImageFiles, ExrOfAPartHasItsPlace) {
   const TemporaryFolder folder;
   Image image = test_image(3, 20);
@@ -248,12 +288,14 @@ TEST(ImageFiles, DamagedExrIsAnErrorOrAPicture) {
   const std::string path = folder.file("a.exr"), damaged = folder.file("b.exr");
   Image image = test_image(5, 20);
   image.variance = image.pixels;
+  image.alpha = image.depth = std::vector<float>(100, 0.25f);
   write_image(path, image, test_metadata());
   const std::string bytes = bytes_of(path);
   int refused = 0;
   const auto try_reading = [&](const std::string& content) {
     write_bytes_to(damaged, content);
     try {
+      read_exr_header(damaged);
       read_image(damaged);
       read_image_metadata(damaged);
     } catch (const InputError& e) {

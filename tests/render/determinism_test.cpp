@@ -39,8 +39,12 @@ constexpr SamplerDescription::Kind samplers[] = {SamplerDescription::Kind::indep
 TEST(Determinism, AnyNumberOfThreadsGivesTheSameBits) {
   for (const auto sampler : samplers) {
     const Image one = render_film(busy_scene(sampler), 3, 1).image();
-    for (const int threads : {2, 3, 8})
-      EXPECT_EQ(render_film(busy_scene(sampler), 3, threads).image().pixels, one.pixels);
+    for (const int threads : {2, 3, 8}) {
+      const Image many = render_film(busy_scene(sampler), 3, threads).image();
+      EXPECT_EQ(many.pixels, one.pixels);
+      EXPECT_EQ(many.alpha, one.alpha);
+      EXPECT_EQ(many.depth, one.depth);
+    }
   }
 }
 

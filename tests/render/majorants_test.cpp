@@ -47,7 +47,7 @@ std::int64_t violations(CompiledScene& scene, CompiledIntegrator::Kind integrato
   backend->prepare(scene);
   Film film(scene.width, scene.height);
   backend->render(0, 16, 2, film, [](double) { return true; });
-  return backend->majorant_violations();
+  return backend->counts().majorant_violations;
 }
 
 TEST(Majorants, ViolationsAreCountedAndThereAreNone) {

@@ -44,7 +44,7 @@ std::vector<float> pixels(const CompiledScene& scene, const std::vector<int>& en
     first = last;
   }
   EXPECT_EQ(film.invalid_samples(), 0);
-  EXPECT_EQ(backend->majorant_violations(), 0);
+  EXPECT_EQ(backend->counts().majorant_violations, 0);
   return film.image().pixels;
 }
 

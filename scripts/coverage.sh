@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# scripts/coverage.sh: which lines of src the quick tests run, by gcov, file by file and in all. Left out are the long
+# suites of test_render, which compare whole pictures and radiances and run the same lines for minutes.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+without_long='-*Nightly*:*Transport*:*PathTracers*:*Agreement*'
+build=build/coverage
+tests=(test_scene test_image test_volume test_kernel test_compile test_cli test_render)
+
+scripts/build.sh coverage brume "${tests[@]}"
+find "$build" -name '*.gcda' -delete
+for test in "${tests[@]}"; do
+  echo "coverage: $test"
+  "$build/bin/$test" --gtest_brief=1 --gtest_filter="$without_long"
+done
+
+# Files and lines are those of the annotated sources that gcov prints, "count:line:text": "-" has no code, "#####" never
+# ran. A line of a header or a template is in several, and has run where any of them ran it.
+find "$PWD/$build" -name '*.gcda' -print0 | xargs -0 -n 1 gcov --stdout --relative-only --source-prefix "$PWD" 2> /dev/null |
+  awk -F: '
+    { gsub(/ /, "", $1); gsub(/ /, "", $2) }
+    $2 == 0 { if ($3 == "Source") file = $4; next }
+    file !~ /^src\// || $1 == "-" || $2 !~ /^[0-9]+$/ { next }
+    !((file, $2) in ran) { ++lines[file]; ran[file, $2] = 0 }
+    $1 !~ /^[#=]/ && !ran[file, $2] { ran[file, $2] = 1; ++hits[file] }
+    END {
+      for (file in lines) {
+        printf "%5.1f %%  %5d of %5d  %s\n", 100 * hits[file] / lines[file], hits[file], lines[file], file
+        all += lines[file]; run += hits[file]
+      }
+      printf "%5.1f %%  %5d of %5d  in all\n", 100 * run / all, run, all
+    }' | sort -n

@@ -1,0 +1,11 @@
+// What files hold, as lines to be shown. Each throws InputError.
+#pragma once
+
+#include <string>
+
+namespace brume {
+
+std::string describe_volume(const std::string& path);
+std::string describe_picture(const std::string& path);
+
+}  // namespace brume

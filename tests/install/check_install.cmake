@@ -1,0 +1,28 @@
+# cmake -D BUILD=... -D CONSUMER=... -D WORK=... -P check_install.cmake; see CMakeLists.txt.
+file(REMOVE_RECURSE ${WORK})
+if(SANITIZE)
+  set(flags -fsanitize=${SANITIZE})
+endif()
+
+function(run)
+  execute_process(COMMAND ${ARGV} COMMAND_ERROR_IS_FATAL ANY OUTPUT_VARIABLE output WORKING_DIRECTORY ${WORK})
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+file(MAKE_DIRECTORY ${WORK})
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
+run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/build -G Ninja -D CMAKE_PREFIX_PATH=${WORK}/prefix
+    -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_BUILD_TYPE=${BUILD_TYPE} -D CMAKE_CXX_FLAGS=${flags})
+run(${CMAKE_COMMAND} --build ${WORK}/build)
+run(${WORK}/build/consumer)
+if(NOT output MATCHES "the sky is 0\\.5, alpha 0\n")
+  message(FATAL_ERROR "the consumer says: ${output}")
+endif()
+if(NOT EXISTS ${WORK}/sky.exr)
+  message(FATAL_ERROR "the consumer wrote no picture")
+endif()
+run(${WORK}/prefix/bin/brume --version)
+if(NOT output MATCHES "^Brume ${VERSION}\n")
+  message(FATAL_ERROR "the installed program says: ${output}")
+endif()
+file(REMOVE_RECURSE ${WORK})
