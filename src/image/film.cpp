@@ -29,7 +29,7 @@ void Film::add(int x, int y, const Spectrum& radiance, const Foreground& foregro
     ++pixel.invalid;
     return;
   }
-  const Spectrum rgb = response_(weighted);
+  const Spectrum rgb = weight * response_(radiance);
   for (int c = 0; c < channel_count; ++c) {
     const double value = rgb[c];
     pixel.sum[c] += value;
