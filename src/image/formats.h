@@ -16,5 +16,7 @@ std::string encode_pfm(const Image& image);
 Image decode_exr(std::string_view bytes);
 ImageMetadata decode_exr_metadata(std::string_view bytes);
 Image decode_pfm(std::string_view bytes);
+// 0 is sRGB's gamma (see read_encoded_image).
+Image decode_png(std::string_view bytes, double gamma);
 
 }  // namespace brume
