@@ -166,7 +166,9 @@ void Compiler::boxes_to_volumes() {
       compiled_.volumes.push_back({boundary.inside, medium.index_from_world, to_float(box->lo), to_float(box->hi)});
     return true;
   };
-  std::erase_if(compiled_.shapes, to_volume);
+  const auto first = compiled_.shapes.begin() + compiled_.world.first_shape;
+  compiled_.shapes.erase(std::remove_if(first, compiled_.shapes.end(), to_volume), compiled_.shapes.end());
+  compiled_.world.shape_count = static_cast<std::uint32_t>(compiled_.shapes.size()) - compiled_.world.first_shape;
 }
 
 }  // namespace brume

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -55,12 +56,38 @@ struct CompiledVolume {
   std::array<float, 3> lo{}, hi{};
 };
 
+// From a place on a surface to the plane of a texture: s = (row 0) . (u, v, 0, 1), t with row 1; planar, with the
+// point's (x, y, z, 1) in place of (u, v, 0, 1).
+struct CompiledMapping {
+  bool planar = false;
+  std::array<std::array<double, 4>, 2> rows{{{1, 0, 0, 0}, {0, 1, 0, 0}}};
+};
+
+// What it computes of its operands, which are textures that come before it: see the kinds of TextureDescription.
+struct CompiledTexture {
+  enum class Kind { constant, scale, mix, checkerboard, image } kind = Kind::constant;
+  Spectrum value;                          // constant
+  std::array<std::int32_t, 3> operands{};  // scale: texture, factor; mix: two and the amount; checkerboard: two
+  CompiledMapping mapping;                 // checkerboard, image
+  std::int32_t image = -1;                 // in images
+  enum class Wrap { repeat, clamp, black } wrap = Wrap::repeat;
+  bool bilinear = true, invert = false;
+  float scale = 1;
+};
+
+// Linear values, rows from the top, `channels` (1 or 3) a pixel.
+struct CompiledImage {
+  std::uint32_t width = 0, height = 0, channels = 3;
+  std::vector<float> pixels;
+};
+
 // A surface. blinn_phong: f = diffuse / pi + specular (s + 8) / (8 pi) (n.h)^s, and a mirror. conductor and dielectric
 // are smooth and reflect by Fresnel's equations; their `mirror` is the reflectance at normal incidence, for integrators
 // that know no better.
 struct CompiledMaterial {
   enum class Kind { blinn_phong, conductor, dielectric } kind = Kind::blinn_phong;
   Spectrum diffuse, specular, mirror;
+  std::int32_t diffuse_texture = -1;  // at or above 0: in place of diffuse
   float shininess = 1;
   Spectrum eta, k;             // conductor: complex index of refraction
   float refractive_index = 1;  // dielectric: inside over outside
@@ -77,18 +104,32 @@ struct CompiledMesh {
   std::uint32_t first_vertex = 0, vertex_count = 0;      // in `positions`
   std::uint32_t first_triangle = 0, triangle_count = 0;  // in `triangles`
   bool has_normals = false;
+  std::int64_t first_uv =
+      -1;                    // in `uvs`, one a vertex; below 0: (0, 0), (1, 0), (1, 1) at the corners of each triangle
   bool flip_normal = false;  // the geometric normal is the negative of (p1 - p0) x (p2 - p0)
 };
 
-// A part of a unit sphere, disk or cylinder under an affine map. The disk lies at z = 0 and faces +z, the cylinder
-// stands on it and reaches to z = 1.
+// A part of a unit sphere, disk, cylinder or saddle under an affine map. The disk lies at z = 0 and faces +z, the
+// cylinder stands on it and reaches to z = 1. The saddle is z = x y over the unit square, facing +z: any bilinear patch
+// that is not flat is the image of it.
 struct CompiledQuadric {
-  enum class Kind { sphere, disk, cylinder } kind = Kind::sphere;
+  enum class Kind { sphere, disk, cylinder, saddle } kind = Kind::sphere;
   Transform object_from_world;
   Transform world_from_object;
-  double inner_radius = 0;  // disk: of its hole
-  double phi_max = 0;       // disk, cylinder: radians from the x axis; spheres are whole
+  double z_min = -1, z_max = 1;           // sphere: where it is cut
+  double inner_radius = 0;                // disk: of its hole
+  double phi_max = 2 * std::numbers::pi;  // radians from the x axis
   bool flip_normal = false;
+  std::int32_t patch = -1;  // saddle: in `patches`; below 0: no shading normals, and uv is the place in the unit square
+  bool is_whole_sphere() const {
+    return kind == Kind::sphere && z_min <= -1 && z_max >= 1 && phi_max >= 2 * std::numbers::pi;
+  }
+};
+
+// At the corners (0, 0), (1, 0), (0, 1), (1, 1) of a saddle.
+struct CompiledPatch {
+  std::array<std::array<float, 3>, 4> normals{};  // all 0: none
+  std::array<std::array<float, 2>, 4> uv{};
 };
 
 // What a shape is, apart from its geometry.
@@ -98,6 +139,18 @@ struct CompiledShape {
   std::int32_t material = -1;  // below 0: no surface
   std::int32_t boundary = -1;  // below 0: the same media on both sides
   std::int32_t light = -1;     // the area light that it is; below 0: none
+};
+
+// A part of the scene's shapes that is placed as a whole.
+struct CompiledObject {
+  std::uint32_t first_shape = 0, shape_count = 0;
+};
+
+// An object in the world. Its shapes' "world" is then the object's own space, and normals that point out of a shape
+// still do.
+struct CompiledInstance {
+  std::uint32_t object = 0;
+  Transform world_from_object, object_from_world;
 };
 
 struct CompiledLight {
@@ -166,9 +219,16 @@ struct CompiledScene {
   std::vector<std::array<std::uint32_t, 3>> triangles;   // relative to the mesh's first vertex
   std::vector<CompiledMesh> meshes;
   std::vector<CompiledQuadric> quadrics;
-  std::vector<CompiledShape> shapes;
+  std::vector<CompiledPatch> patches;
+  std::vector<std::array<float, 2>> uvs;
+  std::vector<CompiledShape> shapes;  // those of the objects, then those that stand in the world themselves
+  std::vector<CompiledObject> objects;
+  CompiledObject world;
+  std::vector<CompiledInstance> instances;
   std::vector<CompiledBoundary> boundaries;
   std::vector<CompiledMaterial> materials;
+  std::vector<CompiledTexture> textures;
+  std::vector<CompiledImage> images;
   std::vector<CompiledLight> lights;
   float mean_radiance = 0;           // in the scene, about: that of light which crosses it without being absorbed
   std::vector<float> light_cdf;      // cumulative chances of lights, without the leading 0

@@ -42,8 +42,7 @@ Spectrum ClassicIntegrator::radiance(Ray ray, RandomStream& random) {
     hit = facing(hit, ray.direction);
     result = result + throughput * direct_light(ray, hit, random);
 
-    const auto shape = static_cast<std::size_t>(hit.shape);
-    throughput = throughput * scene_.materials[static_cast<std::size_t>(scene_.shapes[shape].material)].mirror;
+    throughput = throughput * material_at(scene_, hit).mirror;
     if (is_zero(throughput)) return result;
     const vec3 reflected = reflect(ray.direction, hit.shading_normal);
     if (dot(reflected, hit.normal) <= 0) return result;
@@ -232,8 +231,7 @@ Spectrum ClassicIntegrator::in_scattering(const Ray& ray, RandomStream& random) 
 }
 
 Spectrum ClassicIntegrator::direct_light(const Ray& ray, const SurfaceHit& hit, RandomStream& random) {
-  const auto shape = static_cast<std::size_t>(hit.shape);
-  const CompiledMaterial& material = scene_.materials[static_cast<std::size_t>(scene_.shapes[shape].material)];
+  const CompiledMaterial material = material_at(scene_, hit);
   Spectrum result;
   if (is_zero(material.diffuse) && is_zero(material.specular)) return result;
   const vec3 p = ray.at(hit.t), start = leave_surface(p, hit.normal, hit.t);

@@ -70,7 +70,7 @@ SurfaceSample sample_surface(const CompiledScene& scene, const SurfaceHit& hit, 
 }
 
 Spectrum eval_surface(const CompiledScene& scene, const SurfaceHit& hit, vec3 direction, vec3 to_light, float& pdf) {
-  const CompiledMaterial& material = material_at(scene, hit);
+  const CompiledMaterial material = material_at(scene, hit);
   const float cosine = dot(to_light, hit.shading_normal);
   pdf = 0;
   if (!scatters_widely(material) || cosine <= 0 || dot(to_light, hit.normal) <= 0) return {};

@@ -121,7 +121,7 @@ DiffuseMaterial read_diffuse(ParameterList& p) {
 
 BlinnPhongMaterial read_blinn_phong(ParameterList& p) {
   BlinnPhongMaterial m;
-  m.diffuse = p.colour("diffuse", m.diffuse, ColourUse::albedo);
+  m.diffuse = p.colour("diffuse", m.diffuse.value, ColourUse::albedo);
   m.specular = p.colour("specular", m.specular, ColourUse::albedo);
   m.reflection = p.colour("reflection", m.reflection, ColourUse::albedo);
   m.shininess =
@@ -156,6 +156,9 @@ MaterialDescription Reader::read_material(const std::string& given, const Place&
     unknown_type(type_place, "Material", type, {"diffuse", "blinnphong", "conductor", "dielectric", "interface"},
                  {"coateddiffuse", "thindielectric", "coatedconductor", "diffusetransmission", "subsurface", "mix",
                   "measured", "hair"});
+  if (auto* diffuse = std::get_if<DiffuseMaterial>(&material))
+    use_texture(p, "reflectance", false, diffuse->reflectance);
+  if (auto* phong = std::get_if<BlinnPhongMaterial>(&material)) use_texture(p, "diffuse", false, phong->diffuse);
   p.refuse({"texture displacement", "string normalmap", "float displacement"}, "is not supported yet");
   p.finish();
   return material;
