@@ -22,7 +22,7 @@ TexturePoint mapped(const CompiledMapping& m, const SurfaceHit& hit) {
 
 bool is_odd(double whole) { return std::fmod(whole, 2) != 0; }
 
-// A pixel, columns from the left and rows from the top, which may lie outside by one row or column.
+// A pixel, columns from the left and rows from below, which may lie outside.
 Spectrum pixel(const CompiledImage& image, CompiledTexture::Wrap wrap, int column, int row) {
   const int width = static_cast<int>(image.width), height = static_cast<int>(image.height);
   if (wrap == CompiledTexture::Wrap::repeat) {
@@ -34,7 +34,7 @@ Spectrum pixel(const CompiledImage& image, CompiledTexture::Wrap wrap, int colum
   } else if (column < 0 || column >= width || row < 0 || row >= height) {
     return {};
   }
-  const std::size_t place = static_cast<std::size_t>(row) * image.width + static_cast<std::size_t>(column);
+  const std::size_t place = static_cast<std::size_t>(height - 1 - row) * image.width + static_cast<std::size_t>(column);
   const float* v = image.pixels.data() + place * image.channels;
   return image.channels == 1 ? constant_spectrum(*v) : Spectrum{{v[0], v[1], v[2]}};
 }
@@ -45,14 +45,14 @@ Spectrum look_up(const CompiledTexture& texture, const CompiledImage& image, Tex
   } else {  // further out there is nothing new
     p = {std::clamp(p.s, -1.0, 2.0), std::clamp(p.t, -1.0, 2.0)};
   }
-  const double x = p.s * image.width, y = (1 - p.t) * image.height;
+  const double x = p.s * image.width, y = p.t * image.height;
   if (!texture.bilinear)
     return pixel(image, texture.wrap, static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)));
-  const double left = std::floor(x - 0.5), top = std::floor(y - 0.5);
-  const auto right = static_cast<float>(x - 0.5 - left), down = static_cast<float>(y - 0.5 - top);
-  const int column = static_cast<int>(left), row = static_cast<int>(top);
+  const double left = std::floor(x - 0.5), bottom = std::floor(y - 0.5);
+  const auto right = static_cast<float>(x - 0.5 - left), up = static_cast<float>(y - 0.5 - bottom);
+  const int column = static_cast<int>(left), row = static_cast<int>(bottom);
   const auto at = [&](int i, int j) { return pixel(image, texture.wrap, column + i, row + j); };
-  return (1 - down) * ((1 - right) * at(0, 0) + right * at(1, 0)) + down * ((1 - right) * at(0, 1) + right * at(1, 1));
+  return (1 - up) * ((1 - right) * at(0, 0) + right * at(1, 0)) + up * ((1 - right) * at(0, 1) + right * at(1, 1));
 }
 
 Spectrum image_value(const CompiledScene& scene, const CompiledTexture& texture, const SurfaceHit& hit) {

@@ -150,15 +150,17 @@ TEST(LightSamples, HaveTheDensityOfTheirRays) {
     const CompiledScene scene = compiled(lit_square("reference", emitters.shapes));
     const Intersector intersector(scene);
     int met = 0;
-    for (std::uint32_t i = 0; i < 2000; ++i) {
+    for (int i = 0; i < 2000; ++i) {
       RandomStream random(scene, 0, 0, i);
-      const auto& light = scene.lights[i % scene.lights.size()];
-      const LightSample s = sample_light(scene, light, {0.05f, -0.1f, 0}, nullptr, random);
+      const int picked = i % static_cast<int>(scene.lights.size());
+      const CompiledLight& light = scene.lights[static_cast<std::size_t>(picked)];
+      const LightSample s = sample_light(scene, light, {0.05f, -0.1f, -0.02f}, nullptr, random);
       SurfaceHit hit;
       if (is_zero(s.value) || !intersector.nearest_surface({s.ray.origin, s.ray.direction}, hit)) continue;
-      if (scene.shapes[static_cast<std::size_t>(hit.shape)].light != static_cast<int>(i % scene.lights.size()))
-        continue;
+      if (scene.shapes[static_cast<std::size_t>(hit.shape)].light != picked) continue;
       if (std::abs(hit.t - s.ray.t_max) > 1e-3f) continue;  // another part of it is in front
+      // The ray's end is a little off the light: where it grazes, the ray meets another place.
+      if (std::abs(dot(hit.normal, s.ray.direction)) < 0.2f) continue;
       ++met;
       EXPECT_NEAR(light_pdf(scene, light, s.ray, nullptr, hit), s.pdf, 2e-3f * s.pdf) << emitters.name;
     }
