@@ -95,6 +95,8 @@ void Compiler::add_shape(const ShapeDescription& shape) {
   for (CompiledShape& part : parts) {
     part.material = compiled.material;
     part.boundary = compiled.boundary;
+    part.is_textured =
+        part.material >= 0 && compiled_.materials[static_cast<std::size_t>(part.material)].diffuse_texture >= 0;
   }
   if (shape.light && compiled.material >= 0) add_area_lights(*shape.light, parts);
   compiled_.shapes.insert(compiled_.shapes.end(), parts.begin(), parts.end());

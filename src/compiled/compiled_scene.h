@@ -139,6 +139,7 @@ struct CompiledShape {
   std::int32_t material = -1;  // below 0: no surface
   std::int32_t boundary = -1;  // below 0: the same media on both sides
   std::int32_t light = -1;     // the area light that it is; below 0: none
+  bool is_textured = false;    // its material depends on where a hit is
 };
 
 // A part of the scene's shapes that is placed as a whole.

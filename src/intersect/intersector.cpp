@@ -53,6 +53,8 @@ void drop_doubles(const CompiledScene& scene, std::vector<Crossing>& found, std:
 }
 
 vec3 to_float(Vector3 v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
+Vector3 to_double(vec3 v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
+vec3 to_vec3(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace
 
@@ -161,12 +163,18 @@ struct Intersector::Embree {
       const CompiledMesh& mesh = scene.meshes[shape.index];
       normal = vec3(rtc.Ng_x, rtc.Ng_y, rtc.Ng_z);
       if (mesh.flip_normal) normal = -normal;
-      at_triangle(rtc, mesh, smooth, hit.uv);
+      if (mesh.has_normals) smooth = triangle_normal(rtc, mesh);
+      if (shape.is_textured) hit.uv = triangle_uv(rtc, mesh);
     } else {
-      const vec3& p = hit.position;
-      Vector3 q{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
-      if (instance) q = instance->object_from_world.point(q);
-      normal = at_quadric(scene.quadrics[shape.index], q, smooth, hit.uv);
+      const CompiledQuadric& quadric = scene.quadrics[shape.index];
+      Vector3 p = to_double(hit.position);
+      if (instance) p = instance->object_from_world.point(p);
+      p = quadric.object_from_world.point(p);
+      normal = to_float(quadric_normal(quadric, p));
+      const CompiledPatch* patch =
+          quadric.patch < 0 ? nullptr : &scene.patches[static_cast<std::size_t>(quadric.patch)];
+      if (patch) smooth = to_vec3(at_patch(patch->normals, p));
+      if (shape.is_textured) hit.uv = patch ? at_patch(patch->uv, p) : quadric_uv(quadric, p);
     }
     if (instance) {
       normal = to_world(*instance, normal);
@@ -182,38 +190,26 @@ struct Intersector::Embree {
   }
 
   static vec3 to_world(const CompiledInstance& instance, vec3 n) {
-    const Vector3 normal{static_cast<double>(n.x), static_cast<double>(n.y), static_cast<double>(n.z)};
-    return to_float(normalize(transposed(instance.object_from_world, normal)));
+    return to_float(normalize(transposed(instance.object_from_world, to_double(n))));
   }
 
-  // The shading normal, 0 for none, and the surface parameters of a hit on a triangle.
-  void at_triangle(const RTCHit& rtc, const CompiledMesh& mesh, vec3& smooth, std::array<float, 2>& uv) const {
+  // What the corners of a hit triangle have, by the hit's weights; not normalised.
+  vec3 triangle_normal(const RTCHit& rtc, const CompiledMesh& mesh) const {
+    const auto at = [&, first = mesh.first_vertex](std::uint32_t corner) {
+      return to_vec3(scene.normals[first + corner]);
+    };
+    const auto& [a, b, c] = scene.triangles[mesh.first_triangle + rtc.primID];
+    return (1 - rtc.u - rtc.v) * at(a) + rtc.u * at(b) + rtc.v * at(c);
+  }
+  std::array<float, 2> triangle_uv(const RTCHit& rtc, const CompiledMesh& mesh) const {
+    if (mesh.first_uv < 0) return {rtc.u + rtc.v, rtc.v};
     const auto& triangle = scene.triangles[mesh.first_triangle + rtc.primID];
     const float weights[3] = {1 - rtc.u - rtc.v, rtc.u, rtc.v};
-    uv = {rtc.u + rtc.v, rtc.v};
-    if (mesh.first_uv >= 0) uv = {};
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (mesh.has_normals) {
-        const auto& n = scene.normals[mesh.first_vertex + triangle[i]];
-        smooth = smooth + weights[i] * vec3(n[0], n[1], n[2]);
-      }
-      if (mesh.first_uv >= 0)
-        for (std::size_t k = 0; k < 2; ++k)
-          uv[k] += weights[i] * scene.uvs[static_cast<std::size_t>(mesh.first_uv) + triangle[i]][k];
-    }
-  }
-
-  // The normal at a point in the space of the quadric's object; the others likewise.
-  vec3 at_quadric(const CompiledQuadric& quadric, Vector3 in_object, vec3& smooth, std::array<float, 2>& uv) const {
-    const Vector3 p = quadric.object_from_world.point(in_object);
-    uv = quadric_uv(quadric, p);
-    if (quadric.patch >= 0) {
-      const CompiledPatch& patch = scene.patches[static_cast<std::size_t>(quadric.patch)];
-      const auto n = at_patch(patch.normals, p);
-      smooth = {n[0], n[1], n[2]};
-      uv = at_patch(patch.uv, p);
-    }
-    return to_float(quadric_normal(quadric, p));
+    std::array<float, 2> uv{};
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 2; ++k)
+        uv[k] += weights[i] * scene.uvs[static_cast<std::size_t>(mesh.first_uv) + triangle[i]][k];
+    return uv;
   }
 };
 

@@ -28,7 +28,7 @@ struct SurfaceHit {
   // Unit length. The geometric normal points out of the shape (ReverseOrientation included); the shading normal is on
   // its side.
   kernel::vec3 normal, shading_normal;
-  std::array<float, 2> uv{};  // the place on the shape, as pbrt counts it (see intersect/quadric.h)
+  std::array<float, 2> uv{};  // the place on a shape that is textured, as pbrt counts it (see intersect/quadric.h)
   bool from_inside = false;   // the normals were turned, since the ray comes from the side that they point away from
 };
 

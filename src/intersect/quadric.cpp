@@ -93,10 +93,10 @@ bool is_on_quadric(const CompiledQuadric& quadric, Vector3 p) {
 
 int quadric_hits(const CompiledQuadric& quadric, Vector3 origin, Vector3 direction, std::array<QuadricHit, 2>& hits) {
   const Vector3 o = quadric.object_from_world.point(origin), d = quadric.object_from_world.vector(direction);
-  const Roots roots = quadric.kind == Kind::disk       ? plane_root(o, d)
-                      : quadric.kind == Kind::cylinder ? unit_roots(across_z(o), across_z(d))
-                      : quadric.kind == Kind::sphere   ? unit_roots(o, d)
-                                                       : saddle_roots(o, d);
+  const bool upright = quadric.kind == Kind::cylinder;
+  const Roots roots = quadric.kind == Kind::disk     ? plane_root(o, d)
+                      : quadric.kind == Kind::saddle ? saddle_roots(o, d)
+                                                     : unit_roots(upright ? across_z(o) : o, upright ? across_z(d) : d);
   int count = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(roots.count); ++i)
     if (is_on_quadric(quadric, o + roots.t[i] * d))

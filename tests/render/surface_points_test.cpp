@@ -20,7 +20,7 @@ struct Surface {
   const char* name;
   decltype(ShapeDescription::kind) shape;
   std::function<Vector3(double u, double v)> point;  // in object space
-  // Along dp/du x dp/dv, or against it: what points out of spheres and cylinders, and along +z of disks.
+  // The normal is along dp/du x dp/dv, or against it.
   bool against_cross = false;
 };
 
@@ -92,6 +92,9 @@ TEST_P(SurfacePoints, AreFoundWithTheirParametersAndNormals) {
   const Surface& surface = GetParam();
   const bool stretched = std::string(surface.name) == "stretched_patch";
   const bool triangle = std::string(surface.name).ends_with("triangle");
+  const bool is_mesh = std::holds_alternative<TriangleMeshShape>(surface.shape) ||
+                       std::holds_alternative<BilinearMeshShape>(surface.shape) ||
+                       std::holds_alternative<QuadShape>(surface.shape);
   std::mt19937 random(7);
   const auto number = [&] { return static_cast<double>(random() >> 8) * 0x1p-24; };
   const Transform place = translate({0.3, -0.2, 0.5}) * rotate(40, {1, 2, 3}) * scale({1.1, 0.8, -1.3});
@@ -101,7 +104,11 @@ TEST_P(SurfacePoints, AreFoundWithTheirParametersAndNormals) {
     shape.kind = surface.shape;
     shape.world_from_object = place;
     shape.reverse_orientation = way == 1;
+    Textured texture;
+    texture.texture = 0;
+    shape.material = DiffuseMaterial{texture};
     SceneDescription s = needle_scene();
+    s.textures = {{"t", false, ConstantTexture{}, {}}};
     if (way < 2) {
       s.shapes = {shape};
     } else {
@@ -122,7 +129,7 @@ TEST_P(SurfacePoints, AreFoundWithTheirParametersAndNormals) {
       const auto at = [&](double a, double b) { return whole.point(surface.point(a, b)); };
       const Vector3 p = at(u, v);
       const Vector3 across = cross(at(u + step, v) - at(u - step, v), at(u, v + step) - at(u, v - step));
-      const Vector3 n = normalize(surface.against_cross ? -across : across);
+      const Vector3 n = normalize(across);
       const Vector3 origin = p + 0.02 * n;
       SurfaceHit hit;
       ASSERT_TRUE(intersector.nearest_surface({to_float(origin), to_float(-n)}, hit)) << u << ' ' << v;
@@ -130,9 +137,10 @@ TEST_P(SurfacePoints, AreFoundWithTheirParametersAndNormals) {
       EXPECT_NEAR(length(to_double(hit.position) - p), 0, 2e-5);
       EXPECT_NEAR(hit.uv[0], u, 1e-4);
       EXPECT_NEAR(hit.uv[1], v, 1e-4);
-      // The shape's own map mirrors, and turns normals over as pbrt has it; what an instance does to its space does
-      // not. Quadrics: dp/du x dp/dv of the map's image is turned over once more.
-      EXPECT_NEAR(std::abs(dot(to_double(hit.normal), n)), 1, 1e-4);
+      // As in pbrt, a shape's own coordinates that mirror turn the normals of quadrics over, and leave those of meshes
+      // on their side of the shape; so do instances with both.
+      const bool against = ((surface.against_cross != (way == 1)) != (way == 2)) != is_mesh;
+      EXPECT_NEAR(dot(to_double(hit.normal), n), against ? -1 : 1, 1e-4);
       EXPECT_EQ(hit.normal.x, hit.shading_normal.x);
     }
   }
