@@ -26,7 +26,7 @@ CompiledScene Compiler::run(std::vector<Diagnostic>& warnings) {
   add_textures();
   add_shapes();
   add_instances();
-  boxes_to_volumes();
+  boundaries_to_volumes();
   add_light_choice();
   if (!errors_.empty()) throw InputError(std::move(errors_));
   warnings.insert(warnings.end(), warnings_.begin(), warnings_.end());

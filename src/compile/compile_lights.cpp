@@ -268,7 +268,7 @@ double Compiler::scene_radius() const {
   for (std::size_t i = first_world_quadric_; i < compiled_.quadrics.size(); ++i)
     include(quadric_box(compiled_.quadrics[i]));
   for (const CompiledVolume& v : compiled_.volumes)
-    include(bounds(inverse(v.box_from_world), Box3{to_double(v.lo), to_double(v.hi)}));
+    include(bounds(inverse(v.region.local_from_world), Box3{to_double(v.region.lo), to_double(v.region.hi)}));
   std::vector<Box3> objects;
   for (const CompiledObject& object : compiled_.objects) objects.push_back(object_bounds(object));
   for (const CompiledInstance& instance : compiled_.instances)
