@@ -58,6 +58,32 @@ kernel::BoxSpan span_in(const CompiledRegion& region, const Ray& ray, float t_be
                           {region.hi[0], region.hi[1], region.hi[2]}, t_begin, t_end);
 }
 
+// Adds the part of a span that lies in a region, less what lies in its hole.
+void add_span_in_region(const Ray& ray, MediumSpan span, const CompiledRegion& region, const CompiledRegion* hole,
+                        std::vector<MediumSpan>& spans) {
+  const kernel::BoxSpan within = span_in(region, ray, span.t_begin, span.t_end, span.direction_index);
+  if (!(within.t_length > 0)) return;
+  span.t_begin = within.t_enter;
+  span.t_end = within.t_enter + within.t_length;
+  span.entry_index = within.entry;
+  if (!hole) {
+    spans.push_back(span);
+    return;
+  }
+  vec3 unused(0, 0, 0);
+  const kernel::BoxSpan gap = span_in(*hole, ray, span.t_begin, span.t_end, unused);
+  if (!(gap.t_length > 0)) {
+    spans.push_back(span);
+    return;
+  }
+  MediumSpan before = span, after = span;
+  before.t_end = gap.t_enter;
+  after.t_begin = gap.t_enter + gap.t_length;
+  after.entry_index = within.entry + (after.t_begin - span.t_begin) * span.direction_index;
+  for (const MediumSpan& part : {before, after})
+    if (part.t_end > part.t_begin) spans.push_back(part);
+}
+
 }  // namespace
 
 MediaAlongRay::MediaAlongRay(const CompiledScene& scene, const Intersector& intersector)
@@ -163,31 +189,6 @@ void MediaAlongRay::add_span(const Ray& ray, MediumSpan span, std::vector<Medium
   } else if (span.t_end > span.t_begin) {
     spans.push_back(span);
   }
-}
-
-void MediaAlongRay::add_span_in_region(const Ray& ray, MediumSpan span, const CompiledRegion& region,
-                                       const CompiledRegion* hole, std::vector<MediumSpan>& spans) const {
-  const kernel::BoxSpan within = span_in(region, ray, span.t_begin, span.t_end, span.direction_index);
-  if (!(within.t_length > 0)) return;
-  span.t_begin = within.t_enter;
-  span.t_end = within.t_enter + within.t_length;
-  span.entry_index = within.entry;
-  if (!hole) {
-    spans.push_back(span);
-    return;
-  }
-  vec3 unused(0, 0, 0);
-  const kernel::BoxSpan gap = span_in(*hole, ray, span.t_begin, span.t_end, unused);
-  if (!(gap.t_length > 0)) {
-    spans.push_back(span);
-    return;
-  }
-  MediumSpan before = span, after = span;
-  before.t_end = gap.t_enter;
-  after.t_begin = gap.t_enter + gap.t_length;
-  after.entry_index = within.entry + (after.t_begin - span.t_begin) * span.direction_index;
-  for (const MediumSpan& part : {before, after})
-    if (part.t_end > part.t_begin) spans.push_back(part);
 }
 
 }  // namespace brume

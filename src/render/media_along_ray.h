@@ -57,8 +57,6 @@ class MediaAlongRay {
   std::optional<kernel::vec3> follow(const Ray& ray, int ray_index, std::span<const Crossing> crossings,
                                      std::vector<MediumSpan>& spans) const;
   void add_span(const Ray& ray, MediumSpan span, std::vector<MediumSpan>& spans) const;
-  void add_span_in_region(const Ray& ray, MediumSpan span, const CompiledRegion& region, const CompiledRegion* hole,
-                          std::vector<MediumSpan>& spans) const;
 
   const CompiledScene& scene_;
   const Intersector& intersector_;
