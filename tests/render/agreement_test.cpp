@@ -101,7 +101,6 @@ TEST(AgreementTwins, FaultsAreFound) {
   expect_fault_found("diffuse_surfaces", [](SceneDescription& s) { s.integrator.max_depth = 2; });
   expect_fault_found("textured_instances",
                      [](SceneDescription& s) { std::get<MixTexture>(s.textures[2].kind).amount = Spectrum{}; });
-  expect_fault_found("textured_instances", [](SceneDescription& s) { s.instances.pop_back(); });
 }
 
 // The same volume told in two ways, both by volpath.
