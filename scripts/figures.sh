@@ -9,6 +9,7 @@ brume=build/release/bin/brume
 "$brume" --example --resolution 720x405 --spp 256 -o docs/images/cloud.png
 "$brume" --example --resolution 480x300 --spp 8 --integrator classic -o docs/images/cloud_single.png
 "$brume" --example --resolution 480x300 --spp 128 -o docs/images/cloud_multiple.png
+"$brume" scenes/surfaces.pbrt --resolution 480x300 --spp 256 -o docs/images/surfaces.png
 "$brume" scenes/lamp_in_fog.pbrt --resolution 480x300 --spp 256 -o docs/images/lamp_in_fog.png
 "$brume" scenes/two_clouds.pbrt --resolution 480x300 --spp 128 -o docs/images/two_clouds.png
 "$brume" scenes/smoke_by_a_lamp.pbrt --spp 512 -o docs/images/smoke_by_a_lamp.png

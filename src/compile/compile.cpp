@@ -42,7 +42,9 @@ CompiledScene Compiler::run(std::vector<Diagnostic>& warnings) {
   add_camera();
   add_integrator();
   add_lights();
-  for (const ShapeDescription& shape : scene_.shapes) add_shape(shape);
+  add_textures();
+  add_shapes();
+  add_instances();
   boundaries_to_volumes();
   add_light_choice();
   if (!errors_.empty()) throw InputError(std::move(errors_));

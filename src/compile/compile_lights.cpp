@@ -85,17 +85,23 @@ double world_area(const CompiledQuadric& q) {
   const auto growth = [&](Vector3 n) { return determinant * length(transposed(q.object_from_world, n)); };
   if (q.kind == CompiledQuadric::Kind::disk)
     return growth({0, 0, 1}) * q.phi_max / 2 * (1 - q.inner_radius * q.inner_radius);
+  if (q.kind == CompiledQuadric::Kind::saddle) {
+    double sum = 0;
+    for (int i = 0; i < steps; ++i)
+      for (int j = 0; j < steps; ++j) sum += growth({-(j + 0.5) / steps, -(i + 0.5) / steps, 1});
+    return sum / (steps * steps);
+  }
   const bool sphere = q.kind == CompiledQuadric::Kind::sphere;
-  const double sweep = sphere ? 2 * pi : q.phi_max;
+  const double lowest = sphere ? q.z_min : 0, height = sphere ? q.z_max - q.z_min : 1;
   double sum = 0;
   for (int i = 0; i < steps; ++i) {
-    const double phi = sweep * (i + 0.5) / steps;
+    const double phi = q.phi_max * (i + 0.5) / steps;
     for (int j = 0; j < steps; ++j) {
-      const double z = sphere ? 2 * (j + 0.5) / steps - 1 : 0, ring = std::sqrt(1 - z * z);
+      const double z = sphere ? lowest + height * (j + 0.5) / steps : 0, ring = std::sqrt(1 - z * z);
       sum += growth({ring * std::cos(phi), ring * std::sin(phi), z});
     }
   }
-  return sum / (steps * steps) * sweep * (sphere ? 2 : 1);
+  return sum / (steps * steps) * q.phi_max * height;
 }
 
 LightCone cone_of(const SpotLight& spot) {
@@ -124,9 +130,8 @@ void Compiler::add_lights() {
       c.kind = CompiledLight::Kind::distant;
       c.direction_to = distant->direction_to_light;
       c.value = distant->radiance;
-    } else if (const auto* sphere = std::get_if<SphereLight>(&light.kind)) {
-      add_sphere_light(*sphere);
-      continue;
+    } else if (std::holds_alternative<SphereLight>(light.kind)) {
+      continue;  // add_shapes takes them
     } else if (const auto* ambient = std::get_if<AmbientLight>(&light.kind)) {
       add_ambient_light(*ambient, light.location);
       continue;
@@ -139,13 +144,19 @@ void Compiler::add_lights() {
 }
 
 // A ball of radiance L has the intensity L pi radius^2 in every direction.
-void Compiler::add_sphere_light(const SphereLight& light) {
-  ShapeDescription ball;
-  ball.world_from_object = translate(light.from);
-  ball.material = DiffuseMaterial{{}};
-  ball.kind = SphereShape{light.radius};
-  ball.light = AreaLight{static_cast<float>(1 / (pi * light.radius * light.radius)) * light.intensity, false, 0};
-  add_shape(ball);
+std::vector<ShapeDescription> Compiler::balls_of_lights() const {
+  std::vector<ShapeDescription> balls;
+  for (const LightDescription& description : scene_.lights) {
+    const auto* light = std::get_if<SphereLight>(&description.kind);
+    if (!light) continue;
+    ShapeDescription& ball = balls.emplace_back();
+    ball.world_from_object = translate(light->from);
+    ball.material = DiffuseMaterial{{}};
+    ball.kind = SphereShape{light->radius};
+    ball.light = AreaLight{static_cast<float>(1 / (pi * light->radius * light->radius)) * light->intensity, false, 0};
+    ball.location = description.location;
+  }
+  return balls;
 }
 
 void Compiler::add_ambient_light(const AmbientLight& light, const Location& location) {
@@ -216,36 +227,48 @@ bool Compiler::read_environment(const std::string& filename, const Location& loc
   return true;
 }
 
-std::int32_t Compiler::add_area_light(const AreaLight& light, const CompiledShape& shape) {
-  CompiledLight c;
-  c.kind = CompiledLight::Kind::area;
-  c.value = light.radiance;
-  c.two_sided = light.two_sided;
-  c.shape_kind = shape.kind;
-  c.shape_index = shape.index;
-  double area = 0;  // in the world
+void Compiler::add_area_lights(const AreaLight& light, std::vector<CompiledShape>& parts) {
+  const std::size_t first = compiled_.lights.size();
+  double total = 0;  // area
+  for (CompiledShape& part : parts) {
+    CompiledLight c;
+    c.kind = CompiledLight::Kind::area;
+    c.value = light.radiance;
+    c.two_sided = light.two_sided;
+    const double area = add_emitting_geometry(part, c);
+    if (!(area > 0)) continue;
+    total += area;
+    part.light = static_cast<std::int32_t>(compiled_.lights.size());
+    light_areas_.push_back({compiled_.lights.size(), area});
+    compiled_.lights.push_back(c);
+  }
+  if (!(light.power > 0 && total > 0)) return;
+  for (std::size_t i = first; i < compiled_.lights.size(); ++i) {
+    Spectrum& value = compiled_.lights[i].value;
+    value = static_cast<float>(light.power / (pi * total * (light.two_sided ? 2 : 1))) * value;
+  }
+}
+
+double Compiler::add_emitting_geometry(const CompiledShape& shape, CompiledLight& light) {
+  light.shape_kind = shape.kind;
+  light.shape_index = shape.index;
   if (shape.kind == CompiledShape::Kind::quadric) {
     const CompiledQuadric& q = compiled_.quadrics[shape.index];
-    area = world_area(q);
-    const bool disk = q.kind == CompiledQuadric::Kind::disk;
-    c.area = static_cast<float>(q.phi_max * (disk ? (1 - q.inner_radius * q.inner_radius) / 2 : 1));
-  } else {
-    const CompiledMesh& mesh = compiled_.meshes[shape.index];
-    std::vector<double> areas;
-    for (std::uint32_t i = 0; i < mesh.triangle_count; ++i) {
-      const auto& corners = compiled_.triangles[mesh.first_triangle + i];
-      const auto at = [&](std::size_t k) { return to_double(compiled_.positions[mesh.first_vertex + corners[k]]); };
-      areas.push_back(0.5 * length(cross(at(1) - at(0), at(2) - at(0))));
-    }
-    c.first_triangle_cdf = static_cast<std::uint32_t>(compiled_.triangle_cdfs.size()) + 1;  // past the leading 0
-    area = append_cdf(areas, compiled_.triangle_cdfs);
-    c.area = static_cast<float>(area);
+    const double turn_area = q.kind == CompiledQuadric::Kind::disk ? (1 - q.inner_radius * q.inner_radius) / 2 : 1;
+    light.area = static_cast<float>(q.phi_max * turn_area);
+    return world_area(q);
   }
-  if (!(area > 0)) return -1;
-  if (light.power > 0) c.value = static_cast<float>(light.power / (pi * area * (light.two_sided ? 2 : 1))) * c.value;
-  compiled_.lights.push_back(c);
-  light_areas_.push_back({compiled_.lights.size() - 1, area});
-  return static_cast<std::int32_t>(compiled_.lights.size() - 1);
+  const CompiledMesh& mesh = compiled_.meshes[shape.index];
+  std::vector<double> areas;
+  for (std::uint32_t i = 0; i < mesh.triangle_count; ++i) {
+    const auto& corners = compiled_.triangles[mesh.first_triangle + i];
+    const auto at = [&](std::size_t k) { return to_double(compiled_.positions[mesh.first_vertex + corners[k]]); };
+    areas.push_back(0.5 * length(cross(at(1) - at(0), at(2) - at(0))));
+  }
+  light.first_triangle_cdf = static_cast<std::uint32_t>(compiled_.triangle_cdfs.size()) + 1;  // past the leading 0
+  const double area = append_cdf(areas, compiled_.triangle_cdfs);
+  light.area = static_cast<float>(area);
+  return area;
 }
 
 // In proportion to the power that reaches the scene, a part of which all lights share equally: power alone would all
@@ -280,15 +303,21 @@ void Compiler::add_light_choice() {
 // Of a ball about everything that has a place.
 double Compiler::scene_radius() const {
   Box3 box;
-  for (const auto& p : compiled_.positions) box.include(to_double(p));
-  const auto include = [&](const Transform& world_from_box, Vector3 lo, Vector3 hi) {
-    const Box3 b = bounds(world_from_box, Box3{lo, hi});
+  const auto include = [&](const Box3& b) {
+    if (b.empty()) return;
     box.include(b.lo);
     box.include(b.hi);
   };
-  for (const CompiledQuadric& q : compiled_.quadrics) include(q.world_from_object, {-1, -1, -1}, {1, 1, 1});
+  for (std::size_t i = first_world_vertex_; i < compiled_.positions.size(); ++i)
+    box.include(to_double(compiled_.positions[i]));
+  for (std::size_t i = first_world_quadric_; i < compiled_.quadrics.size(); ++i)
+    include(quadric_box(compiled_.quadrics[i]));
   for (const CompiledVolume& v : compiled_.volumes)
-    include(inverse(v.region.local_from_world), to_double(v.region.lo), to_double(v.region.hi));
+    include(bounds(inverse(v.region.local_from_world), Box3{to_double(v.region.lo), to_double(v.region.hi)}));
+  std::vector<Box3> objects;
+  for (const CompiledObject& object : compiled_.objects) objects.push_back(object_bounds(object));
+  for (const CompiledInstance& instance : compiled_.instances)
+    include(bounds(instance.world_from_object, objects[instance.object]));
   return box.empty() ? 1 : 0.5 * length(box.hi - box.lo);
 }
 

@@ -55,73 +55,61 @@ float internal_reflectance(const CompiledMaterial& m) {
   return static_cast<float>(1 - let_in / (eta * eta));
 }
 
-CompiledMaterial compile_material(const MaterialDescription& material) {
-  CompiledMaterial c;
-  if (const auto* diffuse = std::get_if<DiffuseMaterial>(&material)) {
-    c.diffuse = c.ambient = diffuse->reflectance;
-  } else if (const auto* phong = std::get_if<BlinnPhongMaterial>(&material)) {
-    c.diffuse = phong->diffuse;
-    c.specular = phong->specular;
-    c.mirror = phong->reflection;
-    c.refraction = phong->refraction;
-    c.ambient = phong->ambient;
-    c.shininess = phong->shininess;
-    c.metallic = phong->metallic;
-    c.highlight_scale = highlight_scale(static_cast<double>(phong->shininess));
-    c.refractive_index = phong->index;
-  } else if (const auto* conductor = std::get_if<ConductorMaterial>(&material)) {
-    c.kind = CompiledMaterial::Kind::conductor;
-    c.eta = conductor->eta;
-    c.k = conductor->k;
-    c.alpha = conductor->alpha;
-    if (c.alpha > 0)
-      for (int i = 0; i < channel_count; ++i) c.ambient[i] = fresnel_conductor(1, c.eta[i], c.k[i]);
-  } else if (const auto* dielectric = std::get_if<DielectricMaterial>(&material)) {
-    c.refraction = constant_spectrum(1);
-    c.refractive_index = dielectric->eta;
-  } else if (const auto* coated = std::get_if<CoatedDiffuseMaterial>(&material)) {
-    c.kind = CompiledMaterial::Kind::coated_diffuse;
-    c.diffuse = c.ambient = coated->reflectance;
-    c.refractive_index = coated->eta;
-    c.alpha = coated->alpha;
-    constexpr auto intervals = static_cast<float>(std::tuple_size_v<decltype(c.coat_transmittance)> - 1);
-    if (c.alpha > 0)
-      for (std::size_t i = 0; i < c.coat_transmittance.size(); ++i)
-        c.coat_transmittance[i] =
-            rough_transmittance(std::max(1e-3f, static_cast<float>(i) / intervals), c.refractive_index, c.alpha);
-    c.internal_reflectance = internal_reflectance(c);
-  }
-  return c;
-}
-
-// The unit sphere, disk or cylinder (see CompiledQuadric) that the shape is, and the map that makes it the shape.
-bool compile_quadric(const ShapeDescription& shape, CompiledQuadric& c) {
-  Transform object_from_unit;
-  double phi_max = 360;
-  if (const auto* sphere = std::get_if<SphereShape>(&shape.kind)) {
-    c.kind = CompiledQuadric::Kind::sphere;
-    object_from_unit = scale({sphere->radius, sphere->radius, sphere->radius});
-  } else if (const auto* disk = std::get_if<DiskShape>(&shape.kind)) {
-    c.kind = CompiledQuadric::Kind::disk;
-    object_from_unit = translate({0, 0, disk->height}) * scale({disk->radius, disk->radius, 1});
-    c.inner_radius = disk->inner_radius / disk->radius;
-    phi_max = disk->phi_max;
-  } else if (const auto* cylinder = std::get_if<CylinderShape>(&shape.kind)) {
-    c.kind = CompiledQuadric::Kind::cylinder;
-    object_from_unit = translate({0, 0, cylinder->z_min}) *
-                       scale({cylinder->radius, cylinder->radius, cylinder->z_max - cylinder->z_min});
-    phi_max = cylinder->phi_max;
-  } else {
-    return false;
-  }
+// Part of the shape, as the image of a part of a unit quadric (see CompiledQuadric).
+CompiledQuadric quadric_of(const ShapeDescription& shape, CompiledQuadric::Kind kind, const Transform& object_from_unit,
+                           double phi_max) {
+  CompiledQuadric c;
+  c.kind = kind;
   c.phi_max = phi_max * std::numbers::pi / 180;
   c.world_from_object = shape.world_from_object * object_from_unit;
   c.object_from_world = inverse(c.world_from_object);
-  c.flip_normal = shape.reverse_orientation != (shape.world_from_object.determinant() < 0);
-  return true;
+  c.flip_normal = flips_normal(shape);
+  return c;
+}
+
+CompiledQuadric compile_sphere(const ShapeDescription& shape, const SphereShape& sphere) {
+  CompiledQuadric c = quadric_of(shape, CompiledQuadric::Kind::sphere,
+                                 scale({sphere.radius, sphere.radius, sphere.radius}), sphere.phi_max);
+  c.z_min = std::max(-1.0, sphere.z_min / sphere.radius);
+  c.z_max = std::min(1.0, sphere.z_max / sphere.radius);
+  return c;
+}
+
+CompiledQuadric compile_disk(const ShapeDescription& shape, const DiskShape& disk) {
+  CompiledQuadric c = quadric_of(shape, CompiledQuadric::Kind::disk,
+                                 translate({0, 0, disk.height}) * scale({disk.radius, disk.radius, 1}), disk.phi_max);
+  c.inner_radius = disk.inner_radius / disk.radius;
+  return c;
+}
+
+// The wall and, where there are caps, the lower and the upper one.
+std::vector<CompiledQuadric> compile_cylinder(const ShapeDescription& shape, const CylinderShape& cylinder) {
+  const auto [radius, z_min, z_max, phi_max, caps] = cylinder;
+  std::vector<CompiledQuadric> all = {quadric_of(shape, CompiledQuadric::Kind::cylinder,
+                                                 translate({0, 0, z_min}) * scale({radius, radius, z_max - z_min}),
+                                                 phi_max)};
+  if (!caps) return all;
+  all.push_back(compile_disk(shape, {radius, z_min, 0, phi_max}));
+  all.back().flip_normal = !all.back().flip_normal;
+  all.push_back(compile_disk(shape, {radius, z_max, 0, phi_max}));
+  return all;
 }
 
 }  // namespace
+
+bool flips_normal(const ShapeDescription& shape) {
+  return shape.reverse_orientation != (shape.world_from_object.determinant() < 0);
+}
+
+Vector3 world_normal(const ShapeDescription& shape, Vector3 n) {
+  const Vector3 world = normalize(shape.world_from_object.normal(n));
+  return shape.reverse_orientation ? -world : world;
+}
+
+Box3 quadric_box(const CompiledQuadric& quadric) {
+  const double lo = quadric.kind == CompiledQuadric::Kind::saddle ? 0 : -1;
+  return bounds(quadric.world_from_object, Box3{{lo, lo, lo}, {1, 1, 1}});
+}
 
 void Compiler::add_shape(const ShapeDescription& shape) {
   const std::int32_t inside = medium_index(shape.inside, shape.location);
@@ -142,15 +130,20 @@ void Compiler::add_shape(const ShapeDescription& shape) {
     compiled_.boundaries.push_back({inside, outside});
   }
   if (compiled.material < 0 && compiled.boundary < 0) return;  // nothing to see or to enter
-  add_geometry(shape, compiled);
-  if (shape.light && compiled.material >= 0) compiled.light = add_area_light(*shape.light, compiled);
-  compiled_.shapes.push_back(compiled);
+  std::vector<CompiledShape> parts = add_geometry(shape);
+  for (CompiledShape& part : parts) {
+    part.material = compiled.material;
+    part.boundary = compiled.boundary;
+    part.is_textured = part.material >= 0 && is_textured(compiled_.materials[static_cast<std::size_t>(part.material)]);
+  }
+  if (shape.light && compiled.material >= 0) add_area_lights(*shape.light, parts);
+  compiled_.shapes.insert(compiled_.shapes.end(), parts.begin(), parts.end());
   if (const auto* phong = std::get_if<BlinnPhongMaterial>(&shape.material);
       phong && !is_zero(phong->refraction) && !is_zero(phong->absorption))
-    add_absorption(compiled, phong->absorption);
+    add_absorption(std::move(parts), phong->absorption);
 }
 
-void Compiler::add_absorption(CompiledShape shape, const Spectrum& sigma_a) {
+void Compiler::add_absorption(std::vector<CompiledShape> parts, const Spectrum& sigma_a) {
   auto found = std::find_if(absorbers_.begin(), absorbers_.end(), [&](std::int32_t medium) {
     return compiled_.media[static_cast<std::size_t>(medium)].sigma_t == sigma_a;
   });
@@ -161,49 +154,104 @@ void Compiler::add_absorption(CompiledShape shape, const Spectrum& sigma_a) {
     found = absorbers_.insert(absorbers_.end(), static_cast<std::int32_t>(compiled_.media.size()));
     compiled_.media.push_back(medium);
   }
-  shape.material = shape.light = -1;
-  shape.boundary = static_cast<std::int32_t>(compiled_.boundaries.size());
-  compiled_.boundaries.push_back({*found, no_medium});
-  compiled_.shapes.push_back(shape);
-}
-
-void Compiler::add_geometry(const ShapeDescription& shape, CompiledShape& compiled) {
-  compiled.kind = CompiledShape::Kind::mesh;
-  if (CompiledQuadric quadric; compile_quadric(shape, quadric)) {
-    compiled.kind = CompiledShape::Kind::quadric;
-    compiled.index = static_cast<std::uint32_t>(compiled_.quadrics.size());
-    compiled_.quadrics.push_back(quadric);
-  } else if (const auto* mesh = std::get_if<TriangleMeshShape>(&shape.kind)) {
-    compiled.index = add_mesh(shape, mesh->positions, mesh->triangles, mesh->normals);
-  } else {
-    const auto& q = std::get<QuadShape>(shape.kind);
-    compiled.index =
-        add_mesh(shape, {q.origin, q.origin + q.edge_u, q.origin + q.edge_u + q.edge_v, q.origin + q.edge_v},
-                 {{0, 1, 2}, {0, 2, 3}}, {});
+  for (CompiledShape& part : parts) {
+    part.material = part.light = -1;
+    part.is_textured = false;
+    part.boundary = static_cast<std::int32_t>(compiled_.boundaries.size());
   }
+  compiled_.boundaries.push_back({*found, no_medium});
+  compiled_.shapes.insert(compiled_.shapes.end(), parts.begin(), parts.end());
 }
 
-std::uint32_t Compiler::add_mesh(const ShapeDescription& shape, const std::vector<Vector3>& positions,
-                                 const std::vector<std::array<std::uint32_t, 3>>& triangles,
-                                 const std::vector<Vector3>& normals) {
+std::vector<CompiledShape> Compiler::add_geometry(const ShapeDescription& shape) {
+  if (const auto* sphere = std::get_if<SphereShape>(&shape.kind)) return {add_quadric(compile_sphere(shape, *sphere))};
+  if (const auto* disk = std::get_if<DiskShape>(&shape.kind)) return {add_quadric(compile_disk(shape, *disk))};
+  if (const auto* cylinder = std::get_if<CylinderShape>(&shape.kind)) {
+    std::vector<CompiledShape> parts;
+    for (const CompiledQuadric& q : compile_cylinder(shape, *cylinder)) parts.push_back(add_quadric(q));
+    return parts;
+  }
+  if (const auto* patches = std::get_if<BilinearMeshShape>(&shape.kind)) return add_patches(shape, *patches);
+  if (const auto* mesh = std::get_if<TriangleMeshShape>(&shape.kind)) return {add_mesh(shape, *mesh)};
+  const auto& [origin, u, v] = std::get<QuadShape>(shape.kind);
+  return {add_mesh(shape, {{origin, origin + u, origin + u + v, origin + v},
+                           {{0, 1, 2}, {0, 2, 3}},
+                           {},
+                           {{0, 0}, {1, 0}, {1, 1}, {0, 1}}})};
+}
+
+CompiledShape Compiler::add_quadric(const CompiledQuadric& quadric) {
+  compiled_.quadrics.push_back(quadric);
+  return {CompiledShape::Kind::quadric, static_cast<std::uint32_t>(compiled_.quadrics.size() - 1)};
+}
+
+CompiledShape Compiler::add_mesh(const ShapeDescription& shape, const TriangleMeshShape& from) {
   CompiledMesh mesh;
   mesh.first_vertex = static_cast<std::uint32_t>(compiled_.positions.size());
-  mesh.vertex_count = static_cast<std::uint32_t>(positions.size());
+  mesh.vertex_count = static_cast<std::uint32_t>(from.positions.size());
   mesh.first_triangle = static_cast<std::uint32_t>(compiled_.triangles.size());
-  mesh.triangle_count = static_cast<std::uint32_t>(triangles.size());
-  mesh.has_normals = !normals.empty();
-  mesh.flip_normal = shape.reverse_orientation != (shape.world_from_object.determinant() < 0);
-  for (const Vector3& p : positions) compiled_.positions.push_back(to_float(shape.world_from_object.point(p)));
-  compiled_.triangles.insert(compiled_.triangles.end(), triangles.begin(), triangles.end());
+  mesh.triangle_count = static_cast<std::uint32_t>(from.triangles.size());
+  mesh.has_normals = !from.normals.empty();
+  mesh.flip_normal = flips_normal(shape);
+  for (const Vector3& p : from.positions) compiled_.positions.push_back(to_float(shape.world_from_object.point(p)));
+  compiled_.triangles.insert(compiled_.triangles.end(), from.triangles.begin(), from.triangles.end());
   if (mesh.has_normals) {
     compiled_.normals.resize(mesh.first_vertex);  // earlier meshes may have none
-    for (const Vector3& n : normals) {
-      const Vector3 world = normalize(shape.world_from_object.normal(n));
-      compiled_.normals.push_back(to_float(shape.reverse_orientation ? -world : world));
-    }
+    for (const Vector3& n : from.normals) compiled_.normals.push_back(to_float(world_normal(shape, n)));
+  }
+  if (!from.uv.empty()) {
+    mesh.first_uv = static_cast<std::int64_t>(compiled_.uvs.size());
+    for (const auto& [u, v] : from.uv) compiled_.uvs.push_back({static_cast<float>(u), static_cast<float>(v)});
   }
   compiled_.meshes.push_back(mesh);
-  return static_cast<std::uint32_t>(compiled_.meshes.size() - 1);
+  return {CompiledShape::Kind::mesh, static_cast<std::uint32_t>(compiled_.meshes.size() - 1)};
+}
+
+CompiledMaterial Compiler::compile_material(const MaterialDescription& material) const {
+  CompiledMaterial c;
+  const auto set = [&](const Textured& from, Spectrum& value, std::int32_t& texture) {
+    value = from.value;
+    if (from.texture >= 0) texture = textures_.at(static_cast<std::size_t>(from.texture));
+  };
+  const auto set_diffuse = [&](const Textured& from) { set(from, c.diffuse, c.diffuse_texture); };
+  const auto set_ambient = [&](const Textured& from) { set(from, c.ambient, c.ambient_texture); };
+  if (const auto* diffuse = std::get_if<DiffuseMaterial>(&material)) {
+    set_diffuse(diffuse->reflectance);
+    set_ambient(diffuse->reflectance);
+  } else if (const auto* phong = std::get_if<BlinnPhongMaterial>(&material)) {
+    set_diffuse(phong->diffuse);
+    set_ambient(phong->ambient);
+    c.specular = phong->specular;
+    c.mirror = phong->reflection;
+    c.refraction = phong->refraction;
+    c.shininess = phong->shininess;
+    c.metallic = phong->metallic;
+    c.highlight_scale = highlight_scale(static_cast<double>(phong->shininess));
+    c.refractive_index = phong->index;
+  } else if (const auto* conductor = std::get_if<ConductorMaterial>(&material)) {
+    c.kind = CompiledMaterial::Kind::conductor;
+    c.eta = conductor->eta;
+    c.k = conductor->k;
+    c.alpha = conductor->alpha;
+    if (c.alpha > 0)
+      for (int i = 0; i < channel_count; ++i) c.ambient[i] = fresnel_conductor(1, c.eta[i], c.k[i]);
+  } else if (const auto* dielectric = std::get_if<DielectricMaterial>(&material)) {
+    c.refraction = constant_spectrum(1);
+    c.refractive_index = dielectric->eta;
+  } else if (const auto* coated = std::get_if<CoatedDiffuseMaterial>(&material)) {
+    c.kind = CompiledMaterial::Kind::coated_diffuse;
+    set_diffuse(coated->reflectance);
+    set_ambient(coated->reflectance);
+    c.refractive_index = coated->eta;
+    c.alpha = coated->alpha;
+    constexpr auto intervals = static_cast<float>(std::tuple_size_v<decltype(c.coat_transmittance)> - 1);
+    if (c.alpha > 0)
+      for (std::size_t i = 0; i < c.coat_transmittance.size(); ++i)
+        c.coat_transmittance[i] =
+            rough_transmittance(std::max(1e-3f, static_cast<float>(i) / intervals), c.refractive_index, c.alpha);
+    c.internal_reflectance = internal_reflectance(c);
+  }
+  return c;
 }
 
 std::int32_t Compiler::material_index(const MaterialDescription& material) {

@@ -115,7 +115,7 @@ std::optional<Transform> as_box(const CompiledScene& scene, const CompiledMesh& 
 std::optional<CompiledRegion> region_within(const CompiledScene& scene, const CompiledShape& shape) {
   if (shape.kind == CompiledShape::Kind::quadric) {
     const CompiledQuadric& q = scene.quadrics[shape.index];
-    if (q.kind != CompiledQuadric::Kind::sphere || q.flip_normal) return std::nullopt;
+    if (!q.is_whole_sphere() || q.flip_normal) return std::nullopt;
     return CompiledRegion{CompiledRegion::Kind::ball, q.object_from_world};
   }
   const std::optional<Transform> world_from_unit = as_box(scene, scene.meshes[shape.index]);
@@ -235,11 +235,13 @@ void Compiler::boundaries_to_volumes() {
   if (compiled_.boundaries.size() > max_active_media) return;
   std::vector<Boundary> boundaries;
   std::vector<std::size_t> boundary_of_shape;
-  for (const CompiledShape& shape : compiled_.shapes) {
+  for (std::size_t i = 0; i < compiled_.shapes.size(); ++i) {
+    const CompiledShape& shape = compiled_.shapes[i];
     boundary_of_shape.push_back(boundaries.size());
     if (shape.boundary < 0) continue;
     boundaries.push_back({compiled_.boundaries[static_cast<std::size_t>(shape.boundary)], {}});
-    if (shape.material < 0) boundaries.back().region = region_within(compiled_, shape);
+    const bool in_world = i >= compiled_.world.first_shape;  // once, and where it says
+    if (shape.material < 0 && in_world) boundaries.back().region = region_within(compiled_, shape);
   }
   const ArithmeticMedia media(compiled_, boundaries);
   std::map<const Boundary*, std::int32_t> holes;
@@ -260,6 +262,7 @@ void Compiler::boundaries_to_volumes() {
     const std::size_t boundary = boundary_of_shape[next++];
     return shape.boundary >= 0 && media.includes(boundaries[boundary]);
   });
+  compiled_.world.shape_count = static_cast<std::uint32_t>(compiled_.shapes.size()) - compiled_.world.first_shape;
 }
 
 }  // namespace brume

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "base/diagnostics.h"
@@ -10,6 +11,14 @@
 #include "scene/description.h"
 
 namespace brume {
+
+// Whether the shape's normal in the world is the negative of what its own coordinates, moved, say.
+bool flips_normal(const ShapeDescription& shape);
+// A shading normal of the shape in the world.
+Vector3 world_normal(const ShapeDescription& shape, Vector3 n);
+
+// A box about the quadric, in the world.
+Box3 quadric_box(const CompiledQuadric& quadric);
 
 class Compiler {
  public:
@@ -21,15 +30,19 @@ class Compiler {
   void add_camera();
   void add_integrator();
   void add_lights();
-  void add_sphere_light(const SphereLight& light);
+  std::vector<ShapeDescription> balls_of_lights() const;
   void add_ambient_light(const AmbientLight& light, const Location& location);
   void add_infinite_light(const LightDescription& description);
   bool read_environment(const std::string& filename, const Location& location, CompiledEnvironment& environment);
-  // The index of the shape's light, whose geometry is there already.
-  std::int32_t add_area_light(const AreaLight& light, const CompiledShape& shape);
+  // Lights that the parts of a shape are, whose geometry is there already.
+  void add_area_lights(const AreaLight& light, std::vector<CompiledShape>& parts);
+  // The light's place, and its area in the world.
+  double add_emitting_geometry(const CompiledShape& shape, CompiledLight& light);
   // Fills in with which chance each light is chosen.
   void add_light_choice();
   double scene_radius() const;
+  // Of the object in its own space.
+  Box3 object_bounds(const CompiledObject& object) const;
 
   // The index of the medium called `name` in the compiled scene, which is added on first use; no_medium for "" and for
   // names that are not defined (an error).
@@ -42,14 +55,27 @@ class Compiler {
   // Turns shapes that are nothing but boundaries of media, and boxes or spheres, into volumes.
   void boundaries_to_volumes();
 
+  void add_shapes();
+  void add_instances();
   void add_shape(const ShapeDescription& shape);
-  void add_geometry(const ShapeDescription& shape, CompiledShape& compiled);
-  std::uint32_t add_mesh(const ShapeDescription& shape, const std::vector<Vector3>& positions,
-                         const std::vector<std::array<std::uint32_t, 3>>& triangles,
-                         const std::vector<Vector3>& normals);
+  // What the shape consists of, apart from materials, media and lights.
+  std::vector<CompiledShape> add_geometry(const ShapeDescription& shape);
+  CompiledShape add_quadric(const CompiledQuadric& quadric);
+  CompiledShape add_mesh(const ShapeDescription& shape, const TriangleMeshShape& mesh);
+  std::vector<CompiledShape> add_patches(const ShapeDescription& shape, const BilinearMeshShape& patches);
+  CompiledShape add_saddle(const ShapeDescription& shape, const Transform& object_from_saddle,
+                           const std::array<Vector3, 4>& normals, const std::array<std::array<double, 2>, 4>& uv);
   std::int32_t material_index(const MaterialDescription& material);
-  // A medium that fills the inside of the shape beside what is there, and does nothing but absorb.
-  void add_absorption(CompiledShape shape, const Spectrum& sigma_a);
+  // A medium that fills the inside of the shape with these parts beside what is there, and does nothing but absorb.
+  void add_absorption(std::vector<CompiledShape> parts, const Spectrum& sigma_a);
+  CompiledMaterial compile_material(const MaterialDescription& material) const;
+
+  void add_textures();
+  std::int32_t add_texture(const CompiledTexture& texture);
+  // The compiled texture that a texture's operand is.
+  std::int32_t operand(const Textured& value);
+  // The index of the texture's picture, which is read on first use; below 0 after an error.
+  std::int32_t image_index(const TextureDescription& texture);
 
   void error(const Location& location, const std::string& message);
 
@@ -65,12 +91,15 @@ class Compiler {
     std::size_t light;
     double area;  // in the world
   };
-  std::vector<LightArea> light_areas_;  // of the area lights
+  std::vector<LightArea> light_areas_;                            // of the area lights
+  std::size_t first_world_vertex_ = 0, first_world_quadric_ = 0;  // those before belong to objects
   struct LoadedGrid {
     int index;
     Transform medium_from_index;
   };
-  std::map<std::string, LoadedGrid> grids_;  // by file, grid, storage and interpolation
+  std::vector<std::int32_t> textures_;  // in the compiled scene, by the index of their description
+  std::map<std::tuple<std::string, double, bool>, std::int32_t> images_;  // by file, gamma and whether of numbers
+  std::map<std::string, LoadedGrid> grids_;                               // by file, grid, storage and interpolation
 };
 
 }  // namespace brume

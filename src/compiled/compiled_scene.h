@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,31 @@ struct CompiledVolume {
   std::int32_t hole = -1;  // in `holes`; below 0: none
 };
 
+// From a place on a surface to the plane of a texture: s = (row 0) . (u, v, 0, 1), t with row 1; planar, with the
+// point's (x, y, z, 1) in place of (u, v, 0, 1).
+struct CompiledMapping {
+  bool planar = false;
+  std::array<std::array<double, 4>, 2> rows{{{1, 0, 0, 0}, {0, 1, 0, 0}}};
+};
+
+// What it computes of its operands, which are textures that come before it: see the kinds of TextureDescription.
+struct CompiledTexture {
+  enum class Kind { constant, scale, mix, checkerboard, image } kind = Kind::constant;
+  Spectrum value;                          // constant
+  std::array<std::int32_t, 3> operands{};  // scale: texture, factor; mix: two and the amount; checkerboard: two
+  CompiledMapping mapping;                 // checkerboard, image
+  std::int32_t image = -1;                 // in images
+  enum class Wrap { repeat, clamp, black } wrap = Wrap::repeat;
+  bool bilinear = true, invert = false;
+  float scale = 1;
+};
+
+// Linear values, rows from the top, `channels` (1 or 3) a pixel.
+struct CompiledImage {
+  std::uint32_t width = 0, height = 0, channels = 3;
+  std::vector<float> pixels;
+};
+
 // A surface. blinn_phong: the sum of f = diffuse / pi + highlight c (n.h)^shininess, of a mirror, and of glass that the
 // share `refraction` of the light meets (1 for a dielectric), which it reflects and refracts by Fresnel's equations;
 // highlight = specular lerp(1, diffuse, metallic). conductor: a metal. coated_diffuse: glass above a diffuse
@@ -78,6 +104,7 @@ struct CompiledMaterial {
   enum class Kind { blinn_phong, conductor, coated_diffuse } kind = Kind::blinn_phong;
   Spectrum diffuse, specular, mirror, refraction;
   Spectrum ambient;  // colour under the scene's ambient light
+  std::int32_t diffuse_texture = -1, ambient_texture = -1;  // at or above 0: in place of diffuse and ambient
   float shininess = 1, metallic = 0;
   float highlight_scale = 0;       // c
   Spectrum eta, k;                 // conductor: complex index of refraction
@@ -88,6 +115,7 @@ struct CompiledMaterial {
   std::array<float, 33> coat_transmittance{};
   bool operator==(const CompiledMaterial&) const = default;
 };
+inline bool is_textured(const CompiledMaterial& m) { return m.diffuse_texture >= 0 || m.ambient_texture >= 0; }
 
 // The two sides of a shape that bounds media: crossing it inwards removes `outside` and adds `inside`.
 struct CompiledBoundary {
@@ -99,18 +127,32 @@ struct CompiledMesh {
   std::uint32_t first_vertex = 0, vertex_count = 0;      // in `positions`
   std::uint32_t first_triangle = 0, triangle_count = 0;  // in `triangles`
   bool has_normals = false;
+  std::int64_t first_uv =
+      -1;                    // in `uvs`, one a vertex; below 0: (0, 0), (1, 0), (1, 1) at the corners of each triangle
   bool flip_normal = false;  // the geometric normal is the negative of (p1 - p0) x (p2 - p0)
 };
 
-// A part of a unit sphere, disk or cylinder under an affine map. The disk lies at z = 0 and faces +z, the cylinder
-// stands on it and reaches to z = 1.
+// A part of a unit sphere, disk, cylinder or saddle under an affine map. The disk lies at z = 0 and faces +z, the
+// cylinder stands on it and reaches to z = 1. The saddle is z = x y over the unit square, facing +z: any bilinear patch
+// that is not flat is the image of it.
 struct CompiledQuadric {
-  enum class Kind { sphere, disk, cylinder } kind = Kind::sphere;
+  enum class Kind { sphere, disk, cylinder, saddle } kind = Kind::sphere;
   Transform object_from_world;
   Transform world_from_object;
-  double inner_radius = 0;  // disk: of its hole
-  double phi_max = 0;       // disk, cylinder: radians from the x axis; spheres are whole
+  double z_min = -1, z_max = 1;           // sphere: where it is cut
+  double inner_radius = 0;                // disk: of its hole
+  double phi_max = 2 * std::numbers::pi;  // radians from the x axis
   bool flip_normal = false;
+  std::int32_t patch = -1;  // saddle: in `patches`; below 0: no shading normals, and uv is the place in the unit square
+  bool is_whole_sphere() const {
+    return kind == Kind::sphere && z_min <= -1 && z_max >= 1 && phi_max >= 2 * std::numbers::pi;
+  }
+};
+
+// At the corners (0, 0), (1, 0), (0, 1), (1, 1) of a saddle.
+struct CompiledPatch {
+  std::array<std::array<float, 3>, 4> normals{};  // all 0: none
+  std::array<std::array<float, 2>, 4> uv{};
 };
 
 // What a shape is, apart from its geometry.
@@ -120,6 +162,19 @@ struct CompiledShape {
   std::int32_t material = -1;  // below 0: no surface
   std::int32_t boundary = -1;  // below 0: the same media on both sides
   std::int32_t light = -1;     // the area light that it is; below 0: none
+  bool is_textured = false;    // its material depends on where a hit is
+};
+
+// A part of the scene's shapes that is placed as a whole.
+struct CompiledObject {
+  std::uint32_t first_shape = 0, shape_count = 0;
+};
+
+// An object in the world. Its shapes' "world" is then the object's own space, and normals that point out of a shape
+// still do.
+struct CompiledInstance {
+  std::uint32_t object = 0;
+  Transform world_from_object, object_from_world;
 };
 
 // The directions in which a point light shines, about a unit axis (kernel/cone.inl): all of them, where nothing else is
@@ -201,9 +256,16 @@ struct CompiledScene {
   std::vector<std::array<std::uint32_t, 3>> triangles;   // relative to the mesh's first vertex
   std::vector<CompiledMesh> meshes;
   std::vector<CompiledQuadric> quadrics;
-  std::vector<CompiledShape> shapes;
+  std::vector<CompiledPatch> patches;
+  std::vector<std::array<float, 2>> uvs;
+  std::vector<CompiledShape> shapes;  // those of the objects, then those that stand in the world themselves
+  std::vector<CompiledObject> objects;
+  CompiledObject world;
+  std::vector<CompiledInstance> instances;
   std::vector<CompiledBoundary> boundaries;
   std::vector<CompiledMaterial> materials;
+  std::vector<CompiledTexture> textures;
+  std::vector<CompiledImage> images;
   std::vector<CompiledLight> lights;
   Spectrum ambient;                  // radiance from everywhere, for `classic`
   float mean_radiance = 0;           // in the scene, about: that of light which crosses it without being absorbed

@@ -18,5 +18,7 @@ Image decode_exr(std::string_view bytes);
 ExrHeader decode_exr_header(std::string_view bytes);
 ImageMetadata decode_exr_metadata(std::string_view bytes);
 Image decode_pfm(std::string_view bytes);
+// 0 is sRGB's gamma (see read_encoded_image).
+Image decode_png(std::string_view bytes, double gamma);
 
 }  // namespace brume

@@ -56,6 +56,10 @@ void write_image(const std::string& path, const Image& image, const ImageMetadat
 // one gives three equal channels). Throws InputError.
 Image read_image(const std::string& path);
 
+// The same, and .png, of at most 2^26 pixels, whose values of 8 or 16 bits stand for linear ones: by sRGB's curve where
+// `gamma` is 0, else as these to that power. Alpha is left out. Throws InputError.
+Image read_encoded_image(const std::string& path, double gamma);
+
 // What an .exr says of how it was made; what it does not say is as in a new ImageMetadata. Throws InputError.
 ImageMetadata read_image_metadata(const std::string& path);
 

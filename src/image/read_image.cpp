@@ -31,6 +31,13 @@ Image read_image(const std::string& path) {
 
 ExrHeader read_exr_header(const std::string& path) { return decode_file(path, decode_exr_header); }
 
+Image read_encoded_image(const std::string& path, double gamma) {
+  const std::string s = suffix(path);
+  if (s == ".png") return decode_file(path, [gamma](std::string_view bytes) { return decode_png(bytes, gamma); });
+  if (s != ".exr" && s != ".pfm") throw InputError(path, "pictures are read from .exr, .pfm and .png files");
+  return read_image(path);
+}
+
 ImageMetadata read_image_metadata(const std::string& path) {
   if (suffix(path) != ".exr") throw InputError(path, "only .exr files say how they were made");
   return decode_file(path, decode_exr_metadata);

@@ -1,15 +1,13 @@
 #include "intersect/intersector.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <deque>
 #include <new>
 #include <stdexcept>
 #include <tuple>
 
-#include "intersect/quadric.h"
+#include "intersect/attached_shape.h"
 
 namespace brume {
 
@@ -18,94 +16,6 @@ using kernel::vec3;
 namespace {
 
 constexpr int packet_size = 16;
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
-// What a boundary query carries through Embree to the callbacks that collect its crossings.
-struct CrossingContext {
-  RTCIntersectContext embree;  // first, so that a pointer to it is a pointer to this
-  std::vector<Crossing>* found;
-  int first_ray;
-};
-
-// A quadric for Embree: one user geometry of one primitive.
-struct QuadricGeometry {
-  const CompiledQuadric* quadric;
-  int shape;
-  bool is_boundary;
-};
-
-void quadric_geometry_bounds(const RTCBoundsFunctionArguments* args) {
-  const Box3 box = quadric_bounds(*static_cast<const QuadricGeometry*>(args->geometryUserPtr)->quadric);
-  float* lo = &args->bounds_o->lower_x;
-  float* hi = &args->bounds_o->upper_x;
-  for (int axis = 0; axis < 3; ++axis) {
-    lo[axis] = static_cast<float>(box.lo[axis]);
-    hi[axis] = static_cast<float>(box.hi[axis]);
-  }
-}
-
-// Calls visit(lane, hit) for the hits of the rays of a packet, nearest first, also those behind their origins.
-template <class Visit>
-void for_hits(const int* valid, unsigned n, RTCRayN* rays, const QuadricGeometry& geometry, Visit visit) {
-  for (unsigned i = 0; i < n; ++i) {
-    if (valid[i] != -1) continue;
-    const Vector3 o{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)};
-    const Vector3 d{RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)};
-    std::array<QuadricHit, 2> hits;
-    const int count = quadric_hits(*geometry.quadric, o, d, hits);
-    for (int k = 0; k < count; ++k) visit(i, hits[static_cast<std::size_t>(k)]);
-  }
-}
-
-void add_crossing(CrossingContext& context, unsigned lane, float t, int shape, bool inwards) {
-  context.found->push_back({context.first_ray + static_cast<int>(lane), t, shape, inwards});
-}
-
-void quadric_intersect(const RTCIntersectFunctionNArguments* args) {
-  const auto& geometry = *static_cast<const QuadricGeometry*>(args->geometryUserPtr);
-  const unsigned n = args->N;
-  RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, n);
-  RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, n);
-  for_hits(args->valid, n, rays, geometry, [&](unsigned i, QuadricHit hit) {
-    const auto t = static_cast<float>(hit.t);
-    if (geometry.is_boundary) {
-      auto& context = *reinterpret_cast<CrossingContext*>(args->context);
-      if (hit.t > 0) add_crossing(context, RTCRayN_id(rays, n, i), t, geometry.shape, hit.inwards);
-      return;
-    }
-    if (!(t > RTCRayN_tnear(rays, n, i) && t < RTCRayN_tfar(rays, n, i))) return;
-    RTCRayN_tfar(rays, n, i) = t;
-    RTCHitN_geomID(hits, n, i) = static_cast<unsigned>(geometry.shape);
-    RTCHitN_primID(hits, n, i) = 0;
-    RTCHitN_instID(hits, n, i, 0) = RTC_INVALID_GEOMETRY_ID;
-  });
-}
-
-void quadric_occluded(const RTCOccludedFunctionNArguments* args) {
-  const auto& geometry = *static_cast<const QuadricGeometry*>(args->geometryUserPtr);
-  for_hits(args->valid, args->N, args->ray, geometry, [&](unsigned i, QuadricHit hit) {
-    const auto t = static_cast<float>(hit.t);
-    if (t > RTCRayN_tnear(args->ray, args->N, i) && t < RTCRayN_tfar(args->ray, args->N, i))
-      RTCRayN_tfar(args->ray, args->N, i) = -infinity;
-  });
-}
-
-// Collects a triangle's crossing and lets the ray go on.
-void collect_crossing(const RTCFilterFunctionNArguments* args) {
-  auto& context = *reinterpret_cast<CrossingContext*>(args->context);
-  const bool flip = args->geometryUserPtr != nullptr;
-  for (unsigned i = 0; i < args->N; ++i) {
-    if (args->valid[i] != -1) continue;
-    args->valid[i] = 0;
-    const vec3 normal(RTCHitN_Ng_x(args->hit, args->N, i), RTCHitN_Ng_y(args->hit, args->N, i),
-                      RTCHitN_Ng_z(args->hit, args->N, i));
-    const vec3 direction(RTCRayN_dir_x(args->ray, args->N, i), RTCRayN_dir_y(args->ray, args->N, i),
-                         RTCRayN_dir_z(args->ray, args->N, i));
-    const bool inwards = (dot(normal, direction) < 0) != flip;
-    add_crossing(context, RTCRayN_id(args->ray, args->N, i), RTCRayN_tfar(args->ray, args->N, i),
-                 static_cast<int>(RTCHitN_geomID(args->hit, args->N, i)), inwards);
-  }
-}
 
 void set_ray(RTCRay16& r, int i, const Ray& ray, float t_far) {
   r.org_x[i] = ray.origin.x;
@@ -122,43 +32,58 @@ void set_ray(RTCRay16& r, int i, const Ray& ray, float t_far) {
   r.flags[i] = 0;
 }
 
-// Drops the second of two passages the same way through one shape at one place: the edge of two triangles.
-void drop_doubles(std::vector<Crossing>& found, std::size_t first) {
+// Drops the second of two passages the same way through one boundary at one place: the edge of two triangles, or of two
+// parts of a shape.
+void drop_doubles(const CompiledScene& scene, std::vector<Crossing>& found, std::size_t first) {
   std::sort(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), [](const Crossing& a, const Crossing& b) {
-    return std::tie(a.ray, a.t, a.shape, a.inwards) < std::tie(b.ray, b.t, b.shape, b.inwards);
+    return std::tie(a.ray, a.t, a.shape, a.instance, a.inwards) < std::tie(b.ray, b.t, b.shape, b.instance, b.inwards);
   });
+  const auto way = [&](const Crossing& c) {
+    return std::tuple(scene.shapes[static_cast<std::size_t>(c.shape)].boundary, c.instance, c.inwards);
+  };
   std::size_t kept = first;
   for (std::size_t i = first; i < found.size(); ++i) {
     const Crossing& c = found[i];
     bool is_double = false;
     for (std::size_t j = kept; j-- > first && found[j].ray == c.ray && c.t - found[j].t <= 4e-6f * c.t;)
-      is_double = is_double || (found[j].shape == c.shape && found[j].inwards == c.inwards);
+      is_double = is_double || way(found[j]) == way(c);
     if (!is_double) found[kept++] = c;
   }
   found.resize(kept);
 }
 
+vec3 to_float(Vector3 v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
+Vector3 to_double(vec3 v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
+vec3 to_vec3(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
+
 }  // namespace
 
+// A scene of Embree's for the surfaces of the world, one for its boundaries of media, and two for each object. A shape
+// has the number of its place in its object, or in the world; instances come after the world's shapes.
 struct Intersector::Embree {
+  // Null where there is nothing.
+  struct Layers {
+    RTCScene surfaces = nullptr, boundaries = nullptr;
+  };
+
   const CompiledScene& scene;
   RTCDevice device = nullptr;
-  RTCScene surfaces = nullptr, boundaries = nullptr;
-  int surface_count = 0, boundary_count = 0;
-  std::vector<std::unique_ptr<QuadricGeometry>> quadrics;
+  Layers world;
+  std::vector<Layers> objects;
+  std::deque<AttachedShape> attached;  // which never moves them
 
   explicit Embree(const CompiledScene& s) : scene(s) {
     device = rtcNewDevice("threads=1,set_affinity=0");
     if (!device) throw std::runtime_error("Embree cannot start on this machine");
-    surfaces = rtcNewScene(device);
-    boundaries = rtcNewScene(device);
-    for (RTCScene rtc : {surfaces, boundaries}) rtcSetSceneFlags(rtc, RTC_SCENE_FLAG_ROBUST);
-    for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
-      const CompiledShape& shape = scene.shapes[i];
-      if (shape.material >= 0) attach(surfaces, static_cast<int>(i), false), ++surface_count;
-      if (shape.boundary >= 0) attach(boundaries, static_cast<int>(i), true), ++boundary_count;
+    for (const CompiledObject& object : scene.objects)
+      objects.push_back({commit(attach_shapes(object, false)), commit(attach_shapes(object, true))});
+    world = {attach_shapes(scene.world, false), attach_shapes(scene.world, true)};
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+      attach_instance(world.surfaces, objects[scene.instances[i].object].surfaces, i);
+      attach_instance(world.boundaries, objects[scene.instances[i].object].boundaries, i);
     }
-    for (RTCScene rtc : {surfaces, boundaries}) rtcCommitScene(rtc);
+    commit(world.surfaces);
+    commit(world.boundaries);
     if (rtcGetDeviceError(device) != RTC_ERROR_NONE) throw std::bad_alloc();
   }
 
@@ -166,77 +91,133 @@ struct Intersector::Embree {
   Embree& operator=(const Embree&) = delete;
 
   ~Embree() {
-    rtcReleaseScene(surfaces);
-    rtcReleaseScene(boundaries);
+    objects.push_back(world);
+    for (const Layers& layers : objects)
+      for (RTCScene rtc : {layers.surfaces, layers.boundaries})
+        if (rtc) rtcReleaseScene(rtc);
     rtcReleaseDevice(device);
   }
 
-  void attach(RTCScene rtc, int shape_index, bool is_boundary) {
-    const CompiledShape& shape = scene.shapes[static_cast<std::size_t>(shape_index)];
-    RTCGeometry geometry = shape.kind == CompiledShape::Kind::mesh
-                               ? mesh_geometry(scene.meshes[shape.index], is_boundary)
-                               : quadric_geometry(scene.quadrics[shape.index], shape_index, is_boundary);
+  RTCScene new_scene() const {
+    RTCScene rtc = rtcNewScene(device);
+    if (!rtc) throw std::bad_alloc();
+    rtcSetSceneFlags(rtc, RTC_SCENE_FLAG_ROBUST);
+    return rtc;
+  }
+
+  static RTCScene commit(RTCScene rtc) {
+    if (rtc) rtcCommitScene(rtc);
+    return rtc;
+  }
+
+  // Those of the object's shapes that have a surface, or bound media.
+  RTCScene attach_shapes(const CompiledObject& object, bool boundaries) {
+    RTCScene rtc = nullptr;
+    for (std::uint32_t i = 0; i < object.shape_count; ++i) {
+      const CompiledShape& shape = scene.shapes[object.first_shape + i];
+      if ((boundaries ? shape.boundary : shape.material) < 0) continue;
+      AttachedShape& a = attached.emplace_back();
+      a.shape = static_cast<int>(object.first_shape + i);
+      a.is_boundary = boundaries;
+      if (shape.kind == CompiledShape::Kind::quadric)
+        a.quadric = &scene.quadrics[shape.index];
+      else
+        a.flip_normal = scene.meshes[shape.index].flip_normal;
+      if (!rtc) rtc = new_scene();
+      attach(rtc, make_geometry(device, scene, a), i);
+    }
+    return rtc;
+  }
+
+  void attach_instance(RTCScene& rtc, RTCScene object, std::size_t index) const {
+    if (!object) return;
+    const CompiledInstance& instance = scene.instances[index];
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(geometry, object);
+    std::array<float, 12> rows{};
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      rows[i] = static_cast<float>(instance.world_from_object.m[i / 4][i % 4]);
+    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, rows.data());
     rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(rtc, geometry, static_cast<unsigned>(shape_index));
+    if (!rtc) rtc = new_scene();
+    attach(rtc, geometry, first_instance() + static_cast<unsigned>(index));
+  }
+
+  static void attach(RTCScene rtc, RTCGeometry geometry, unsigned number) {
+    rtcAttachGeometryByID(rtc, geometry, number);
     rtcReleaseGeometry(geometry);
   }
 
-  // Copies, since Embree reads a few bytes beyond the last vertex.
-  RTCGeometry mesh_geometry(const CompiledMesh& mesh, bool is_boundary) const {
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices = static_cast<std::array<float, 3>*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(std::array<float, 3>), mesh.vertex_count));
-    auto* triangles = static_cast<std::array<std::uint32_t, 3>*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                sizeof(std::array<std::uint32_t, 3>), mesh.triangle_count));
-    if (!vertices || !triangles) throw std::bad_alloc();
-    std::copy_n(scene.positions.begin() + mesh.first_vertex, mesh.vertex_count, vertices);
-    std::copy_n(scene.triangles.begin() + mesh.first_triangle, mesh.triangle_count, triangles);
-    if (is_boundary) {
-      rtcSetGeometryIntersectFilterFunction(geometry, collect_crossing);
-      // Any non-null pointer says that the shape's normal is the negative of the triangle's.
-      rtcSetGeometryUserData(geometry, mesh.flip_normal ? const_cast<CompiledMesh*>(&mesh) : nullptr);
-    }
-    return geometry;
-  }
+  unsigned first_instance() const { return scene.world.shape_count; }
 
-  RTCGeometry quadric_geometry(const CompiledQuadric& quadric, int shape_index, bool is_boundary) {
-    quadrics.push_back(std::make_unique<QuadricGeometry>(QuadricGeometry{&quadric, shape_index, is_boundary}));
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-    rtcSetGeometryUserPrimitiveCount(geometry, 1);
-    rtcSetGeometryUserData(geometry, quadrics.back().get());
-    rtcSetGeometryBoundsFunction(geometry, quadric_geometry_bounds, nullptr);
-    rtcSetGeometryIntersectFunction(geometry, quadric_intersect);
-    rtcSetGeometryOccludedFunction(geometry, quadric_occluded);
-    return geometry;
-  }
-
-  // Fills in the normals of a hit on a triangle, given Embree's normal and barycentric coordinates.
-  void mesh_normals(const RTCHit& rtc, const CompiledMesh& mesh, SurfaceHit& hit) const {
-    vec3 n = normalize(vec3(rtc.Ng_x, rtc.Ng_y, rtc.Ng_z));
-    if (mesh.flip_normal) n = -n;
-    hit.normal = hit.shading_normal = n;
-    if (!mesh.has_normals) return;
-    const auto& triangle = scene.triangles[mesh.first_triangle + rtc.primID];
-    const float weights[3] = {1 - rtc.u - rtc.v, rtc.u, rtc.v};
-    vec3 smooth(0, 0, 0);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto& v = scene.normals[mesh.first_vertex + triangle[i]];
-      smooth = smooth + weights[i] * vec3(v[0], v[1], v[2]);
+  // Fills in what else there is to say of a hit whose t is known.
+  void describe(const RTCHit& rtc, const Ray& ray, SurfaceHit& hit) const {
+    hit.position = ray.at(hit.t);
+    const bool in_world = rtc.instID[0] == RTC_INVALID_GEOMETRY_ID;
+    const CompiledInstance* instance = in_world ? nullptr : &scene.instances[rtc.instID[0] - first_instance()];
+    const CompiledObject& object = instance ? scene.objects[instance->object] : scene.world;
+    hit.shape = static_cast<int>(object.first_shape + rtc.geomID);
+    const CompiledShape& shape = scene.shapes[object.first_shape + rtc.geomID];
+    vec3 normal, smooth(0, 0, 0);
+    if (shape.kind == CompiledShape::Kind::mesh) {
+      const CompiledMesh& mesh = scene.meshes[shape.index];
+      normal = vec3(rtc.Ng_x, rtc.Ng_y, rtc.Ng_z);
+      if (mesh.flip_normal) normal = -normal;
+      if (mesh.has_normals) smooth = triangle_normal(rtc, mesh);
+      if (shape.is_textured) hit.uv = triangle_uv(rtc, mesh);
+    } else {
+      const CompiledQuadric& quadric = scene.quadrics[shape.index];
+      Vector3 p = to_double(hit.position);
+      if (instance) p = instance->object_from_world.point(p);
+      p = quadric.object_from_world.point(p);
+      normal = to_float(quadric_normal(quadric, p));
+      const CompiledPatch* patch =
+          quadric.patch < 0 ? nullptr : &scene.patches[static_cast<std::size_t>(quadric.patch)];
+      if (patch) smooth = to_vec3(at_patch(patch->normals, p));
+      if (shape.is_textured) hit.uv = patch ? at_patch(patch->uv, p) : quadric_uv(quadric, p);
     }
+    if (instance) {
+      normal = to_world(*instance, normal);
+      smooth = to_world(*instance, smooth);
+    }
+    normal = normalize(normal);
+    hit.normal = hit.shading_normal = normal;
     const float squared = dot(smooth, smooth);
     if (!(squared > 0)) return;
     smooth = smooth * (1 / std::sqrt(squared));
     hit.shading_normal = smooth;
-    if (dot(smooth, n) < 0) hit.normal = -n;
+    if (dot(smooth, normal) < 0) hit.normal = -normal;
+  }
+
+  static vec3 to_world(const CompiledInstance& instance, vec3 n) {
+    return to_float(normalize(transposed(instance.object_from_world, to_double(n))));
+  }
+
+  // What the corners of a hit triangle have, by the hit's weights; not normalised.
+  vec3 triangle_normal(const RTCHit& rtc, const CompiledMesh& mesh) const {
+    const auto at = [&, first = mesh.first_vertex](std::uint32_t corner) {
+      return to_vec3(scene.normals[first + corner]);
+    };
+    const auto& [a, b, c] = scene.triangles[mesh.first_triangle + rtc.primID];
+    return (1 - rtc.u - rtc.v) * at(a) + rtc.u * at(b) + rtc.v * at(c);
+  }
+  std::array<float, 2> triangle_uv(const RTCHit& rtc, const CompiledMesh& mesh) const {
+    if (mesh.first_uv < 0) return {rtc.u + rtc.v, rtc.v};
+    const auto& triangle = scene.triangles[mesh.first_triangle + rtc.primID];
+    const float weights[3] = {1 - rtc.u - rtc.v, rtc.u, rtc.v};
+    std::array<float, 2> uv{};
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 2; ++k)
+        uv[k] += weights[i] * scene.uvs[static_cast<std::size_t>(mesh.first_uv) + triangle[i]][k];
+    return uv;
   }
 };
 
 Intersector::Intersector(const CompiledScene& scene) : embree_(std::make_unique<Embree>(scene)) {}
 Intersector::~Intersector() = default;
 
-bool Intersector::has_surfaces() const { return embree_->surface_count > 0; }
-bool Intersector::has_boundaries() const { return embree_->boundary_count > 0; }
+bool Intersector::has_surfaces() const { return embree_->world.surfaces != nullptr; }
+bool Intersector::has_boundaries() const { return embree_->world.boundaries != nullptr; }
 
 bool Intersector::nearest_surface(const Ray& ray, SurfaceHit& hit) const {
   if (!has_surfaces()) return false;
@@ -255,18 +236,11 @@ bool Intersector::nearest_surface(const Ray& ray, SurfaceHit& hit) const {
            ~0u,
            0,
            0};
-  r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(embree_->surfaces, &context, &r);
+  r.hit.geomID = r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(embree_->world.surfaces, &context, &r);
   if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
   hit.t = r.ray.tfar;
-  hit.shape = static_cast<int>(r.hit.geomID);
-  const CompiledShape& shape = embree_->scene.shapes[r.hit.geomID];
-  if (shape.kind == CompiledShape::Kind::mesh) {
-    embree_->mesh_normals(r.hit, embree_->scene.meshes[shape.index], hit);
-  } else {
-    const vec3 p = ray.at(hit.t);
-    hit.normal = hit.shading_normal = quadric_normal(embree_->scene.quadrics[shape.index], {p.x, p.y, p.z});
-  }
+  embree_->describe(r.hit, ray, hit);
   return true;
 }
 
@@ -284,7 +258,7 @@ void Intersector::occluded(std::span<const Ray> rays, std::span<std::uint8_t> bl
       valid[i] = -1;
       set_ray(packet, i, ray, ray.t_max);
     }
-    rtcOccluded16(valid, embree_->surfaces, &context, &packet);
+    rtcOccluded16(valid, embree_->world.surfaces, &context, &packet);
     for (int i = 0; i < n; ++i) blocked[first + static_cast<std::size_t>(i)] = packet.tfar[i] < 0;
   }
 }
@@ -298,16 +272,17 @@ void Intersector::crossings(std::span<const Ray> rays, std::vector<Crossing>& fo
     rtcInitIntersectContext(&context.embree);
     context.found = &found;
     context.first_ray = static_cast<int>(first);
+    context.first_instance = embree_->first_instance();
     const std::size_t before = found.size();
     alignas(64) int valid[packet_size] = {};
     RTCRayHit16 packet{};
     for (int i = 0; i < n; ++i) {
       valid[i] = -1;
       set_ray(packet.ray, i, rays[first + static_cast<std::size_t>(i)], far_away);
-      packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+      packet.hit.geomID[i] = packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
-    rtcIntersect16(valid, embree_->boundaries, &context.embree, &packet);
-    drop_doubles(found, before);
+    rtcIntersect16(valid, embree_->world.boundaries, &context.embree, &packet);
+    drop_doubles(embree_->scene, found, before);
   }
 }
 

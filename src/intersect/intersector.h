@@ -1,6 +1,7 @@
 // Rays against surfaces: the only place that knows Embree. Built from CompiledScene's geometry.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -23,10 +24,12 @@ struct Ray {
 struct SurfaceHit {
   float t = 0;
   int shape = -1;
+  kernel::vec3 position;
   // Unit length. The geometric normal points out of the shape (ReverseOrientation included); the shading normal is on
   // its side.
   kernel::vec3 normal, shading_normal;
-  bool from_inside = false;  // the normals were turned, since the ray comes from the side that they point away from
+  std::array<float, 2> uv{};  // the place on a shape that is textured, as pbrt counts it (see intersect/quadric.h)
+  bool from_inside = false;   // the normals were turned, since the ray comes from the side that they point away from
 };
 
 // Where a ray passes the boundary of media.
@@ -34,6 +37,7 @@ struct Crossing {
   int ray = 0;  // index into the rays asked about
   float t = 0;
   int shape = -1;
+  int instance = -1;     // in which the shape stands; below 0: in the world itself
   bool inwards = false;  // against the shape's normal
 };
 
@@ -53,7 +57,7 @@ class Intersector {
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
 
   // All passages through boundaries of media along the whole of each ray, t_max ignored, sorted by ray and t. Where a
-  // ray meets an edge shared by two triangles, that is one passage.
+  // ray meets an edge shared by two triangles or by two parts of a shape, that is one passage.
   void crossings(std::span<const Ray> rays, std::vector<Crossing>& found) const;
 
  private:

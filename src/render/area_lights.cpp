@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "intersect/quadric.h"
+
 namespace brume {
 
 using kernel::vec3;
@@ -37,8 +39,12 @@ LightPoint sample_sphere(const CompiledQuadric& sphere, vec3 p, RandomStream::Pa
   const Vector3 d =
       normalize(to_double(kernel::direction_at_cosine(to_float(cone.axis), static_cast<float>(z), turns)));
   const double b = -dot(from, d), half_chord = std::sqrt(std::max(0.0, 1 - dot(from + b * d, from + b * d)));
-  const bool inside = cone.size == 2;
-  const Vector3 q = normalize(from + (inside ? b + half_chord : b - half_chord) * d);
+  // The near side, unless that is cut away or is where p lies itself.
+  Vector3 q = normalize(from + (b - half_chord) * d);
+  if (cone.size == 2 || b - half_chord < 1e-5 || !is_on_quadric(sphere, q)) {
+    q = normalize(from + (b + half_chord) * d);
+    if (!is_on_quadric(sphere, q)) return {};
+  }
   const double stretch = length(sphere.world_from_object.vector(d));
   const double pdf = cone.density() * stretch * stretch * stretch / std::abs(sphere.world_from_object.determinant());
   const Vector3 n = normalize(transposed(sphere.object_from_world, q));
@@ -58,7 +64,24 @@ double area_growth(const CompiledQuadric& quadric, vec3 n) {
          length(transposed(quadric.world_from_object, to_double(n)));
 }
 
+// The unit normal of a hit at p, a point in the saddle's own space (see Intersector).
+vec3 saddle_normal(const CompiledScene& scene, const CompiledQuadric& saddle, Vector3 p) {
+  const vec3 n = to_float(quadric_normal(saddle, p));
+  if (saddle.patch < 0) return n;
+  const auto smooth = at_patch(scene.patches[static_cast<std::size_t>(saddle.patch)].normals, p);
+  return dot(n, vec3(smooth[0], smooth[1], smooth[2])) < 0 ? -n : n;
+}
+
 // A point and its density per unit of area.
+LightPoint sample_saddle(const CompiledScene& scene, const CompiledQuadric& saddle, RandomStream::Pair numbers) {
+  const auto [u, v] = numbers;
+  const double x = static_cast<double>(u), y = static_cast<double>(v);
+  const Vector3 q{x, y, x * y};
+  return {to_float(saddle.world_from_object.point(q)), saddle_normal(scene, saddle, q),
+          static_cast<float>(1 / saddle_area(saddle, q))};
+}
+
+// Likewise.
 LightPoint sample_disk_or_cylinder(const CompiledQuadric& quadric, float area, RandomStream::Pair numbers) {
   const auto [u, v] = numbers;
   const double phi = static_cast<double>(v) * quadric.phi_max, cosine = std::cos(phi), sine = std::sin(phi);
@@ -115,7 +138,10 @@ LightPoint sample_area_light(const CompiledScene& scene, const CompiledLight& li
                              RandomStream::Pair numbers) {
   const CompiledQuadric* quadric = quadric_of(scene, light);
   if (quadric && quadric->kind == CompiledQuadric::Kind::sphere) return sample_sphere(*quadric, p, numbers);
-  LightPoint q = quadric ? sample_disk_or_cylinder(*quadric, light.area, numbers) : sample_mesh(scene, light, numbers);
+  LightPoint q = !quadric ? sample_mesh(scene, light, numbers)
+                 : quadric->kind == CompiledQuadric::Kind::saddle
+                     ? sample_saddle(scene, *quadric, numbers)
+                     : sample_disk_or_cylinder(*quadric, light.area, numbers);
   const vec3 to_light = q.position - p;
   const float squared = dot(to_light, to_light), cosine = std::abs(dot(q.normal, to_light));  // times the distance
   q.pdf = cosine > 0 ? q.pdf * squared * std::sqrt(squared) / cosine : 0;
@@ -125,7 +151,11 @@ LightPoint sample_area_light(const CompiledScene& scene, const CompiledLight& li
 float area_light_pdf(const CompiledScene& scene, const CompiledLight& light, const Ray& ray, const SurfaceHit& hit) {
   const CompiledQuadric* quadric = quadric_of(scene, light);
   if (quadric && quadric->kind == CompiledQuadric::Kind::sphere) return sphere_pdf(*quadric, ray);
-  const float area = light.area * (quadric ? static_cast<float>(area_growth(*quadric, hit.normal)) : 1);
+  float area = light.area;  // over the density of points there
+  if (quadric && quadric->kind == CompiledQuadric::Kind::saddle)
+    area = static_cast<float>(saddle_area(*quadric, quadric->object_from_world.point(to_double(ray.at(hit.t)))));
+  else if (quadric)
+    area *= static_cast<float>(area_growth(*quadric, hit.normal));
   const float cosine = std::abs(dot(hit.normal, ray.direction));
   return cosine > 0 ? hit.t * hit.t / (cosine * area) : 0;
 }

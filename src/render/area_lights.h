@@ -14,7 +14,8 @@ struct LightPoint {
 };
 
 // From p. Spheres: uniform over the cone of directions in which they are seen (of the unit sphere, before the affine
-// map). Others: uniform over the area (before the affine map).
+// map), pdf 0 where a part of a sphere is not met there. Saddles: uniform over the unit square. Others: uniform over
+// the area (before the affine map).
 LightPoint sample_area_light(const CompiledScene& scene, const CompiledLight& light, kernel::vec3 p,
                              RandomStream::Pair numbers);
 

@@ -78,7 +78,7 @@ Spectrum ClassicIntegrator::follow(const Branch& branch, RandomStream& random, F
 // The reflected and the refracted ray; of a rough surface one that a facet reflects. A shading normal can send them to
 // the wrong side, where they are dropped.
 void ClassicIntegrator::branch_off(const Branch& branch, const SurfaceHit& hit, RandomStream& random) {
-  const CompiledMaterial& material = material_at(scene_, hit);
+  const CompiledMaterial material = material_at(scene_, hit);
   const auto add = [&](const SurfaceSample& s) {
     const Spectrum throughput = branch.throughput * s.weight;
     if (max_value(throughput) < negligible_transmittance || (dot(s.direction, hit.normal) < 0) != s.transmitted) return;

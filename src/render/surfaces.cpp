@@ -185,7 +185,7 @@ Spectrum eval_matt(const CompiledScene& scene, const SurfaceHit& hit, vec3 direc
 }
 
 Spectrum eval_facets(const CompiledScene& scene, const SurfaceHit& hit, vec3 direction, vec3 to_light, float& pdf) {
-  const CompiledMaterial& material = material_at(scene, hit);
+  const CompiledMaterial material = material_at(scene, hit);
   const float cosine = cosine_on_outside(hit, to_light);
   pdf = 0;
   if (material.alpha == 0 || cosine == 0) return {};
@@ -203,7 +203,7 @@ SurfaceSample sample_facets(const CompiledMaterial& material, const SurfaceHit& 
 }
 
 Spectrum eval_surface(const CompiledScene& scene, const SurfaceHit& hit, vec3 direction, vec3 to_light, float& pdf) {
-  const CompiledMaterial& material = material_at(scene, hit);
+  const CompiledMaterial material = material_at(scene, hit);
   const vec3 n = hit.shading_normal;
   const float cosine = cosine_on_outside(hit, to_light);
   pdf = 0;

@@ -7,6 +7,7 @@
 #include "compiled/compiled_scene.h"
 #include "intersect/intersector.h"
 #include "render/random_stream.h"
+#include "render/textures.h"
 
 namespace brume {
 
@@ -33,8 +34,13 @@ inline kernel::vec3 reflect(kernel::vec3 direction, kernel::vec3 normal) {
   return normalize(direction - (2 * dot(direction, normal)) * normal);
 }
 
-inline const CompiledMaterial& material_at(const CompiledScene& scene, const SurfaceHit& hit) {
-  return scene.materials[static_cast<std::size_t>(scene.shapes[static_cast<std::size_t>(hit.shape)].material)];
+// With the values that its textures have there.
+inline CompiledMaterial material_at(const CompiledScene& scene, const SurfaceHit& hit) {
+  const auto shape = static_cast<std::size_t>(hit.shape);
+  CompiledMaterial m = scene.materials[static_cast<std::size_t>(scene.shapes[shape].material)];
+  if (m.diffuse_texture >= 0) m.diffuse = texture_reflectance(scene, m.diffuse_texture, hit);
+  if (m.ambient_texture >= 0) m.ambient = texture_reflectance(scene, m.ambient_texture, hit);
+  return m;
 }
 
 // A direction in which a path goes on. The weight is f |cos| over the chance of the choice, for radiance that travels

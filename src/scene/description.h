@@ -115,17 +115,76 @@ struct MediumDescription {
   Location location;
 };
 
+// What may vary over a surface: a value, or in its place a texture. For numbers all channels are the same.
+struct Textured {
+  Spectrum value;
+  int texture = -1;  // in SceneDescription::textures; below 0: the value
+  Textured() = default;
+  Textured(const Spectrum& v) : value(v) {}
+  bool operator==(const Textured&) const = default;
+};
+
+// From a place on a surface to the plane of a texture: (u_scale u + u_offset, v_scale v + v_offset), or planar, of a
+// point p in the texture's space, (dot(p, v1) + u_offset, dot(p, v2) + v_offset).
+struct TextureMapping {
+  bool planar = false;
+  double u_scale = 1, v_scale = 1, u_offset = 0, v_offset = 0;
+  Vector3 v1{1, 0, 0}, v2{0, 1, 0};
+  Transform world_from_texture;
+  bool operator==(const TextureMapping&) const = default;
+};
+
+struct ConstantTexture {
+  Spectrum value = constant_spectrum(1);
+  bool operator==(const ConstantTexture&) const = default;
+};
+struct ScaleTexture {
+  Textured texture = constant_spectrum(1), scale = constant_spectrum(1);
+  bool operator==(const ScaleTexture&) const = default;
+};
+// (1 - amount) first + amount second.
+struct MixTexture {
+  Textured first, second = constant_spectrum(1), amount = constant_spectrum(0.5f);
+  bool operator==(const MixTexture&) const = default;
+};
+// The first where floor(s) + floor(t) is even, else the second.
+struct CheckerboardTexture {
+  Textured first = constant_spectrum(1), second;
+  TextureMapping mapping;
+  bool operator==(const CheckerboardTexture&) const = default;
+};
+// A picture over the unit square, its lowest row at t = 0; times scale, and where inverted taken from 1.
+struct ImageTexture {
+  enum class Wrap { repeat, clamp, black };
+  std::string filename;  // resolved
+  double gamma = 0;      // of .png files: 0 is sRGB's curve, else linear values are the file's to this power
+  bool bilinear = true;  // else the nearest pixel
+  Wrap wrap = Wrap::repeat;
+  double scale = 1;
+  bool invert = false;
+  TextureMapping mapping;
+  bool operator==(const ImageTexture&) const = default;
+};
+
+struct TextureDescription {
+  std::string name;
+  bool is_float = false;  // of numbers, else of colours; the two have names of their own
+  std::variant<ConstantTexture, ScaleTexture, MixTexture, CheckerboardTexture, ImageTexture> kind;
+  Location location;
+};
+
 struct DiffuseMaterial {
-  Spectrum reflectance = constant_spectrum(0.5f);
+  Textured reflectance = constant_spectrum(0.5f);
 };
 // A diffuse colour and a highlight about the mirror's direction, tinted by the diffuse colour as far as the material is
 // metallic; a mirror of colour `reflection`; and a share `refraction` of the light for which the surface is glass that
 // absorbs within (see CompiledMaterial). `ambient` is the colour under light that comes from nowhere.
 struct BlinnPhongMaterial {
-  Spectrum diffuse = constant_spectrum(0.5f), specular, reflection;
+  Textured diffuse = constant_spectrum(0.5f);
+  Spectrum specular, reflection;
   float shininess = 32;
   Spectrum refraction{}, absorption{};  // absorption: per world unit
-  Spectrum ambient = constant_spectrum(0.5f);
+  Textured ambient = constant_spectrum(0.5f);
   float metallic = 0, index = 1.5f;
 };
 // No surface: the boundary of a medium.
@@ -142,20 +201,31 @@ struct DielectricMaterial {
 };
 // A diffuse base under a clear coat, whose index of refraction over that of the outside is eta.
 struct CoatedDiffuseMaterial {
-  Spectrum reflectance = constant_spectrum(0.5f);
+  Textured reflectance = constant_spectrum(0.5f);
   float eta = 1.5f;
   float alpha = 0;
 };
 using MaterialDescription = std::variant<DiffuseMaterial, BlinnPhongMaterial, InterfaceMaterial, ConductorMaterial,
                                          DielectricMaterial, CoatedDiffuseMaterial>;
 
+// About the origin, cut at z_min and z_max.
 struct SphereShape {
   double radius = 1;
+  double z_min = -std::numeric_limits<double>::infinity(), z_max = std::numeric_limits<double>::infinity();
+  double phi_max = 360;  // degrees from the x axis
 };
 struct TriangleMeshShape {
   std::vector<Vector3> positions;
   std::vector<std::array<std::uint32_t, 3>> triangles;  // indices checked
   std::vector<Vector3> normals;                         // empty or one per position
+  std::vector<std::array<double, 2>> uv{};              // likewise
+};
+// Surfaces p(u, v) between four points each, at the corners (0, 0), (1, 0), (0, 1), (1, 1), linear in u and in v.
+struct BilinearMeshShape {
+  std::vector<Vector3> positions;
+  std::vector<std::array<std::uint32_t, 4>> patches;  // indices checked
+  std::vector<Vector3> normals{};                     // empty or one per position
+  std::vector<std::array<double, 2>> uv{};            // likewise
 };
 // A parallelogram: origin, origin + edge_u, origin + edge_u + edge_v, origin + edge_v.
 struct QuadShape {
@@ -166,10 +236,11 @@ struct DiskShape {
   double radius = 1, height = 0, inner_radius = 0;
   double phi_max = 360;  // degrees from the x axis
 };
-// About the z axis, without caps.
+// About the z axis; caps are disks at its ends, with their normals outwards.
 struct CylinderShape {
   double radius = 1, z_min = -1, z_max = 1;
   double phi_max = 360;
+  bool caps = false;
 };
 // The bounds of the inside medium itself, without a surface.
 struct VolumeShape {};
@@ -188,7 +259,19 @@ struct ShapeDescription {
   MaterialDescription material;
   std::string inside, outside;  // media; "" is none
   std::optional<AreaLight> light{};
-  std::variant<SphereShape, TriangleMeshShape, QuadShape, DiskShape, CylinderShape, VolumeShape> kind;
+  std::variant<SphereShape, TriangleMeshShape, BilinearMeshShape, QuadShape, DiskShape, CylinderShape, VolumeShape>
+      kind;
+  Location location;
+};
+
+// Shapes that appear where instances place them. Their world_from_object leads to the space of the object.
+struct ObjectDescription {
+  std::string name;
+  std::vector<ShapeDescription> shapes;  // none shines, none is a volume
+};
+struct InstanceDescription {
+  std::string object;  // its name
+  Transform world_from_object;
   Location location;
 };
 
@@ -236,7 +319,10 @@ struct SceneDescription {
   CameraDescription camera;
   IntegratorDescription integrator;
   std::vector<MediumDescription> media;
+  std::vector<TextureDescription> textures;  // each uses only such as come before it
   std::vector<ShapeDescription> shapes;
+  std::vector<ObjectDescription> objects;
+  std::vector<InstanceDescription> instances;
   std::vector<LightDescription> lights;
 };
 

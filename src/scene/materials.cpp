@@ -150,12 +150,12 @@ DiffuseMaterial read_diffuse(ParameterList& p) {
 
 BlinnPhongMaterial read_blinn_phong(ParameterList& p) {
   BlinnPhongMaterial m;
-  m.diffuse = p.colour("diffuse", m.diffuse, ColourUse::albedo);
+  m.diffuse = p.colour("diffuse", m.diffuse.value, ColourUse::albedo);
   m.specular = p.colour("specular", m.specular, ColourUse::albedo);
   m.reflection = p.colour("reflection", m.reflection, ColourUse::albedo);
   m.shininess =
       static_cast<float>(p.number("shininess", static_cast<double>(m.shininess), Range::from_to(0, max_shininess)));
-  m.ambient = p.colour("ambient", m.diffuse, ColourUse::albedo);
+  m.ambient = p.colour("ambient", m.diffuse.value, ColourUse::albedo);
   m.metallic = static_cast<float>(p.number("metallic", 0, Range::from_to(0, 1)));
   m.refraction = p.colour("refraction", m.refraction, ColourUse::albedo);
   m.index = read_index(p, "index");
@@ -165,7 +165,7 @@ BlinnPhongMaterial read_blinn_phong(ParameterList& p) {
 
 // What is odd about a material, "" where nothing is.
 std::string doubt_about(const BlinnPhongMaterial& m) {
-  const float most = max_value(m.diffuse + m.specular + m.reflection + m.refraction);
+  const float most = max_value(m.diffuse.value + m.specular + m.reflection + m.refraction);
   if (most > 1.00001f)
     return fmt::format("sends back more light than it gets: diffuse + specular + reflection + refraction is {:.3g}",
                        most);
@@ -202,9 +202,18 @@ MaterialDescription Reader::read_material(const std::string& given, const Place&
     unknown_type(type_place, "Material", type,
                  {"diffuse", "coateddiffuse", "blinnphong", "conductor", "dielectric", "interface"},
                  {"thindielectric", "coatedconductor", "diffusetransmission", "subsurface", "mix", "measured", "hair"});
-  if (const auto* phong = std::get_if<BlinnPhongMaterial>(&material))
+  if (auto* diffuse = std::get_if<DiffuseMaterial>(&material))
+    use_texture(p, "reflectance", false, diffuse->reflectance);
+  if (auto* coated = std::get_if<CoatedDiffuseMaterial>(&material))
+    use_texture(p, "reflectance", false, coated->reflectance);
+  if (auto* phong = std::get_if<BlinnPhongMaterial>(&material)) {
+    use_texture(p, "diffuse", false, phong->diffuse);
+    if (!p.has(ParameterType::rgb, "ambient") && !p.has(ParameterType::spectrum, "ambient"))
+      phong->ambient = phong->diffuse;
+    use_texture(p, "ambient", false, phong->ambient);
     if (const std::string doubt = doubt_about(*phong); !doubt.empty())
       p.warning(p.place(), fmt::format("{} {}", p.owner(), doubt));
+  }
   p.refuse({"texture displacement", "string normalmap", "float displacement"}, "is not supported yet");
   p.finish();
   return material;

@@ -8,19 +8,14 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <optional>
 
 #include "base/gzip.h"
+#include "scene/mesh_text.h"
 
 namespace brume {
 
 namespace {
-
-// What is wrong with the file, without its name.
-struct Fault {
-  std::string message;
-};
 
 enum class Format { ascii, little_endian, big_endian };
 
@@ -64,41 +59,6 @@ struct Element {
 struct Header {
   Format format = Format::ascii;
   std::vector<Element> elements;
-};
-
-class Text {
- public:
-  explicit Text(std::string_view rest) : rest_(rest) {}
-
-  // The next line, without its end, which may be that of any system.
-  std::string_view line() {
-    const std::size_t length = std::min(rest_.find('\n'), rest_.size());
-    std::string_view line = rest_.substr(0, length);
-    rest_.remove_prefix(std::min(length + 1, rest_.size()));
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    return line;
-  }
-
-  // The next word, "" at the end.
-  std::string_view word() {
-    constexpr std::string_view blanks = " \t\r\n";
-    rest_.remove_prefix(std::min(rest_.find_first_not_of(blanks), rest_.size()));
-    const std::string_view word = rest_.substr(0, rest_.find_first_of(blanks));
-    rest_.remove_prefix(word.size());
-    return word;
-  }
-
-  std::string_view bytes(std::size_t count) {
-    if (count > rest_.size()) return {};
-    const std::string_view bytes = rest_.substr(0, count);
-    rest_.remove_prefix(count);
-    return bytes;
-  }
-
-  std::string_view rest() const { return rest_; }
-
- private:
-  std::string_view rest_;
 };
 
 Type need_type(std::string_view name) {
@@ -163,7 +123,7 @@ class Values {
   Values(Text text, Format format) : text_(text), format_(format) {}
 
   double next(Type type) {
-    if (format_ == Format::ascii) return parse(text_.word());
+    if (format_ == Format::ascii) return number(text_.word());
     const std::string_view bytes = text_.bytes(static_cast<std::size_t>(type.size));
     if (bytes.empty()) throw Fault{"ends before its last value"};
     std::array<char, 8> b{};
@@ -181,16 +141,6 @@ class Values {
   static T as(const std::array<char, 8>& bytes) {
     T value;
     std::memcpy(&value, bytes.data(), sizeof value);
-    return value;
-  }
-
-  static double parse(std::string_view word) {
-    if (word.empty()) throw Fault{"ends before its last value"};
-    double value = 0;
-    const char* begin = word.data() + (word.front() == '+' ? 1 : 0);
-    const auto [end, code] = std::from_chars(begin, word.data() + word.size(), value);
-    if (code != std::errc() || end != word.data() + word.size())
-      throw Fault{fmt::format("has \"{}\" where a number should be", word.substr(0, 40))};
     return value;
   }
 
@@ -215,17 +165,18 @@ void read_element(const Element& element, Values& source, std::vector<double>& v
   }
 }
 
-Vector3 finite(double x, double y, double z) {
-  for (const double v : {x, y, z})
-    if (!(std::abs(v) <= static_cast<double>(std::numeric_limits<float>::max())))  // also where it is not a number
-      throw Fault{"has a vertex that is not finite"};
-  return {x, y, z};
-}
-
 void read_vertices(const Element& element, Values& source, TriangleMeshShape& mesh) {
-  std::array<int, 6> where{};
+  std::array<int, 8> where{};
   static constexpr std::string_view names[] = {"x", "y", "z", "nx", "ny", "nz"};
   for (std::size_t i = 0; i < 6; ++i) where[i] = element.index_of(names[i]);
+  static constexpr std::string_view uv_names[][2] = {
+      {"u", "v"}, {"s", "t"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}};
+  where[6] = where[7] = -1;
+  for (const auto& [u, v] : uv_names)
+    if (const int i = element.index_of(u), j = element.index_of(v); i >= 0 && j >= 0 && where[6] < 0) {
+      where[6] = i;
+      where[7] = j;
+    }
   if (std::min({where[0], where[1], where[2]}) < 0) throw Fault{"has vertices without x, y and z"};
   const bool has_normals = std::min({where[3], where[4], where[5]}) >= 0;
   std::vector<double> values(element.properties.size()), list;
@@ -234,6 +185,7 @@ void read_vertices(const Element& element, Values& source, TriangleMeshShape& me
     read_element(element, source, values, -1, list);
     mesh.positions.push_back(finite(at(0), at(1), at(2)));
     if (has_normals) mesh.normals.push_back(finite(at(3), at(4), at(5)));
+    if (where[6] >= 0) mesh.uv.push_back(finite_uv(at(6), at(7)));
   }
 }
 

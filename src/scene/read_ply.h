@@ -13,7 +13,8 @@ struct PlyMesh {
   std::size_t skipped_faces = 0;  // those that have neither three nor four corners
 };
 
-// Reads element `vertex` (x y z, and nx ny nz where there are all three) and element `face` (the list vertex_indices or
+// Reads element `vertex` (x y z, nx ny nz where there are all three, and u v, s t,
+// texture_u texture_v or texture_s texture_t) and element `face` (the list vertex_indices or
 // vertex_index) of a file in text or in binary of either byte order; whatever else it holds is passed over. Faces of
 // four corners become two triangles. Throws InputError.
 PlyMesh read_ply(const std::string& path);

@@ -78,10 +78,10 @@ const std::vector<Reader::Directive>& Reader::directives() {
       {"NamedMaterial", Block::world, &Reader::named_material},
       {"LightSource", Block::world, &Reader::light_source},
       {"AreaLightSource", Block::world, &Reader::area_light_source},
-      {"Texture", Block::world, &Reader::refused},
-      {"ObjectBegin", Block::world, &Reader::refused},
-      {"ObjectEnd", Block::world, &Reader::refused},
-      {"ObjectInstance", Block::world, &Reader::refused},
+      {"Texture", Block::world, &Reader::texture},
+      {"ObjectBegin", Block::world, &Reader::object_begin},
+      {"ObjectEnd", Block::world, &Reader::object_end},
+      {"ObjectInstance", Block::world, &Reader::object_instance},
       {"Import", Block::world, &Reader::import},
   };
   return all;
@@ -247,6 +247,7 @@ void Reader::check_whole() {
   for (const Saved& open : stack_) messages_.error(open.place, fmt::format("this {} has no end", open.begin));
   if (!in_world_ && !early_) messages_.error(end, "the scene has no WorldBegin");
   check_media_names();
+  check_object_names();
   check_volumes();
   scene_.sampler.seed = sampler_seed_ ? *sampler_seed_ : global_seed_.value_or(scene_.sampler.seed);
 }

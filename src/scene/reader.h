@@ -1,5 +1,6 @@
 // The reader of scene files: one member function per directive, in reader.cpp (blocks, includes, names),
-// transforms.cpp, files.cpp, film.cpp, options.cpp, media.cpp, shapes.cpp, materials.cpp and lights.cpp.
+// transforms.cpp, files.cpp, film.cpp, options.cpp, media.cpp, shapes.cpp, objects.cpp, textures.cpp, materials.cpp and
+// lights.cpp.
 #pragma once
 
 #include <map>
@@ -105,6 +106,11 @@ class Reader {
   void make_named_medium();
   void medium_interface();
   void shape();
+  void add_shape(ShapeDescription shape);
+  void object_begin();
+  void object_end();
+  void object_instance();
+  void texture();
   void material();
   void make_named_material();
   void named_material();
@@ -112,6 +118,13 @@ class Reader {
   void area_light_source();
   InfiniteLight infinite_light(ParameterList& p, const Transform& ctm);
   TriangleMeshShape ply_mesh(ParameterList& p);
+  TriangleMeshShape obj_mesh(ParameterList& p);
+  TextureMapping read_mapping(ParameterList& p);
+  ImageTexture read_image_texture(ParameterList& p);
+  // The colour, or with is_float the number, that a parameter of a texture gives, or the texture that it names.
+  Textured textured(ParameterList& p, std::string_view name, bool is_float, const Textured& fallback);
+  // Takes the texture that the parameter names, where it names one, in place of the value.
+  void use_texture(ParameterList& p, std::string_view name, bool is_float, Textured& value);
   MaterialDescription read_material(const std::string& given, const Place& type_place, ParameterList& p);
 
   // Arguments of directives; what is not there leaves the directive with an error.
@@ -139,6 +152,7 @@ class Reader {
   void check_whole();
   void check_media_names();
   void check_volumes();
+  void check_object_names();
 
   std::string folder_;  // of the file being read
   Messages& messages_;
@@ -180,6 +194,12 @@ class Reader {
     Place place;
   };
   std::vector<VolumeUse> volume_uses_;
+  // Indices into scene_.textures, of colours and of numbers.
+  std::map<std::string, int, std::less<>> textures_by_name_[2];
+  std::vector<int> texture_sizes_;                                   // how many textures each evaluates
+  bool in_object_ = false;                                           // between ObjectBegin and ObjectEnd
+  std::map<std::string, std::size_t, std::less<>> objects_by_name_;  // index into scene_.objects
+  std::map<std::string, Place> object_uses_;                         // the first of each name
 };
 
 }  // namespace brume

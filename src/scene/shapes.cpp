@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "scene/read_obj.h"
 #include "scene/read_ply.h"
 #include "scene/reader.h"
 
@@ -12,12 +13,16 @@ namespace brume {
 namespace {
 
 SphereShape read_sphere(ParameterList& p) {
-  const double radius = p.number("radius", 1, Range::above(0));
-  const bool whole =
-      p.number("zmin", -radius) <= -radius && p.number("zmax", radius) >= radius && p.number("phimax", 360) >= 360;
-  if (!whole) p.error(p.place(), "parts of a sphere are not supported: leave out zmin, zmax and phimax");
-  p.ignore({"float zmin", "float zmax", "float phimax"});
-  return {radius};
+  SphereShape sphere;
+  sphere.radius = p.number("radius", 1, Range::above(0));
+  const double a = p.number("zmin", -sphere.radius), b = p.number("zmax", sphere.radius);
+  if (std::min(a, b) > -sphere.radius) sphere.z_min = std::min(a, b);
+  if (std::max(a, b) < sphere.radius) sphere.z_max = std::max(a, b);
+  sphere.phi_max = p.number("phimax", sphere.phi_max, Range{0, 360, true, false});
+  if (a == b || std::min(a, b) >= sphere.radius || std::max(a, b) <= -sphere.radius)
+    p.error(p.place(), fmt::format("nothing is left of the sphere of radius {} between zmin = {} and zmax = {}",
+                                   sphere.radius, a, b));
+  return sphere;
 }
 
 DiskShape read_disk(ParameterList& p) {
@@ -39,6 +44,7 @@ CylinderShape read_cylinder(ParameterList& p) {
   cylinder.z_min = std::min(a, b);
   cylinder.z_max = std::max(a, b);
   cylinder.phi_max = p.number("phimax", cylinder.phi_max, Range{0, 360, true, false});
+  cylinder.caps = p.boolean("caps", false);
   if (a == b) p.error(p.place(), fmt::format("the cylinder has no height: zmin and zmax are both {}", a));
   return cylinder;
 }
@@ -85,12 +91,27 @@ std::vector<std::array<std::uint32_t, corners>> read_indices(ParameterList& p, s
   return faces;
 }
 
-void read_normals(ParameterList& p, TriangleMeshShape& mesh) {
+// Normals and uv.
+template <class Mesh>
+void read_vertex_values(ParameterList& p, Mesh& mesh) {
   mesh.normals = p.triples(ParameterType::normal, "N");
   if (!mesh.normals.empty() && !mesh.positions.empty() && mesh.normals.size() != mesh.positions.size())
     p.value_error(*p.find(ParameterType::normal, "N"), 0,
                   fmt::format("must have a normal for each of the {} points P, found {}", mesh.positions.size(),
                               mesh.normals.size()));
+  // pbrt's old spellings.
+  for (const std::string_view name : {"uv", "st"})
+    for (const ParameterType type : {ParameterType::point2, ParameterType::float_}) {
+      const Parameter* given = p.find(type, name);
+      if (!given) continue;
+      const std::vector<double>& v = given->numbers;
+      if (v.size() != 2 * mesh.positions.size() && !mesh.positions.empty())
+        p.value_error(*given, 0,
+                      fmt::format("must have two numbers for each of the {} points P, found {}", mesh.positions.size(),
+                                  v.size()));
+      mesh.uv.clear();
+      for (std::size_t i = 0; i + 1 < v.size(); i += 2) mesh.uv.push_back({v[i], v[i + 1]});
+    }
 }
 
 TriangleMeshShape read_triangle_mesh(ParameterList& p) {
@@ -101,35 +122,22 @@ TriangleMeshShape read_triangle_mesh(ParameterList& p) {
     mesh.triangles = read_indices<3>(p, mesh.positions.size(), "three indices a triangle");
   else
     p.ignore({"integer indices"});
-  read_normals(p, mesh);
-  p.ignore({"vector3 S", "point2 uv", "float uv", "point2 st", "float st", "integer faceIndices"});
+  read_vertex_values(p, mesh);
+  p.ignore({"vector3 S", "integer faceIndices"});
   return mesh;
 }
 
-// Patches with the corners (0, 0), (1, 0), (0, 1), (1, 1): flat ones, which two triangles fill.
-TriangleMeshShape read_bilinear_mesh(ParameterList& p) {
-  TriangleMeshShape mesh;
+BilinearMeshShape read_bilinear_mesh(ParameterList& p) {
+  BilinearMeshShape mesh;
   p.require(ParameterType::point3, "P");
   mesh.positions = p.triples(ParameterType::point3, "P");
-  if (!p.has(ParameterType::point3, "P")) {
+  if (p.has(ParameterType::point3, "P"))
+    mesh.patches = read_indices<4>(p, mesh.positions.size(), "four indices a patch");
+  else
     p.ignore({"integer indices"});
-  } else {
-    const auto patches = read_indices<4>(p, mesh.positions.size(), "four indices a patch");
-    for (std::size_t i = 0; i < patches.size(); ++i) {
-      const auto& v = patches[i];
-      const auto edge = [&](std::size_t k) { return mesh.positions[v[k]] - mesh.positions[v[0]]; };
-      const Vector3 normal = cross(edge(1), edge(2));
-      if (std::abs(dot(normal, edge(3))) > 1e-4 * length(normal) * length(edge(3))) {
-        p.error(p.place(), fmt::format("patch {} of Shape \"bilinearmesh\" is not flat; only flat ones are read", i));
-        break;
-      }
-      mesh.triangles.push_back({v[0], v[1], v[3]});
-      mesh.triangles.push_back({v[0], v[3], v[2]});
-    }
-  }
-  read_normals(p, mesh);
+  read_vertex_values(p, mesh);
   p.refuse({"string emissionfilename"}, "is not supported yet");
-  p.ignore({"point2 uv", "float uv", "integer faceIndices"});
+  p.ignore({"integer faceIndices"});
   return mesh;
 }
 
@@ -154,9 +162,29 @@ TriangleMeshShape Reader::ply_mesh(ParameterList& p) {
   }
 }
 
+TriangleMeshShape Reader::obj_mesh(ParameterList& p) {
+  p.require(ParameterType::string, "filename");
+  const std::string name = p.string("filename", "");
+  if (name.empty()) return {};
+  const Place place = p.place_of(ParameterType::string, "filename");
+  try {
+    ObjMesh obj = read_obj(resolve(name));
+    const auto warn = [&](bool is_so, const std::string& what) {
+      if (is_so) messages_.warning(place, fmt::format("\"{}\" {}", printable(name), what));
+    };
+    warn(obj.names_materials, "names materials; they are not read, and the current one is used");
+    warn(obj.lacks_normals_or_uv, "has normals or uv in some corners and not in others; they are left out");
+    warn(obj.skipped_elements > 0, fmt::format("has {} points and lines; they are left out", obj.skipped_elements));
+    return std::move(obj.mesh);
+  } catch (const InputError& e) {
+    p.error(place, fmt::format("\"{}\" {}", printable(name), printable(e.diagnostics().front().message)));
+    return {};
+  }
+}
+
 void Reader::shape() {
   const std::string type = string_argument("a type");
-  const std::vector<std::string_view> types = {"sphere", "trianglemesh", "plymesh",  "bilinearmesh",
+  const std::vector<std::string_view> types = {"sphere", "trianglemesh", "plymesh",  "objmesh", "bilinearmesh",
                                                "quad",   "disk",         "cylinder", "volume"};
   if (std::find(types.begin(), types.end(), type) == types.end())
     unknown_type(argument_, "Shape", type, types, {"loopsubdiv", "curve"});
@@ -165,20 +193,24 @@ void Reader::shape() {
   ShapeDescription shape;
   shape.location = location(directive_.place);
   shape.inside = state_.inside;
+  if (type == "volume" && in_object_)
+    messages_.fail(directive_.place, "Shape \"volume\" has no place in an object: media stay where they are made");
   if (type == "volume") {
     // It has neither a surface nor a place of its own.
     shape.material = InterfaceMaterial{};
     shape.kind = VolumeShape{};
     volume_uses_.push_back({state_.inside, state_.ctm, directive_.place});
     p.finish();
-    scene_.shapes.push_back(std::move(shape));
+    add_shape(std::move(shape));
     return;
   }
   shape.world_from_object = usable_ctm("the shape");
   shape.reverse_orientation = state_.reverse_orientation;
   shape.material = state_.material;
   shape.outside = state_.outside;
-  if (!std::holds_alternative<InterfaceMaterial>(shape.material)) {
+  if (state_.area_light && in_object_) {
+    messages_.warning(directive_.place, "AreaLightSource has no effect on the shapes of objects");
+  } else if (!std::holds_alternative<InterfaceMaterial>(shape.material)) {
     shape.light = state_.area_light;
   } else if (state_.area_light) {
     messages_.warning(directive_.place, "AreaLightSource has no effect on a shape whose material is \"interface\"");
@@ -190,10 +222,11 @@ void Reader::shape() {
   if (type == "trianglemesh") shape.kind = read_triangle_mesh(p);
   if (type == "bilinearmesh") shape.kind = read_bilinear_mesh(p);
   if (type == "plymesh") shape.kind = ply_mesh(p);
+  if (type == "objmesh") shape.kind = obj_mesh(p);
   if (p.number("alpha", 1) != 1)
     p.value_error(*p.find(ParameterType::float_, "alpha"), 0, "must be 1: cut-outs are not supported yet");
   p.finish();
-  scene_.shapes.push_back(std::move(shape));
+  add_shape(std::move(shape));
 }
 
 void Reader::check_volumes() {

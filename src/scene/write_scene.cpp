@@ -15,6 +15,10 @@ namespace {
 constexpr std::string_view traversal_names[] = {"march", "dda"};
 constexpr std::string_view placement_names[] = {"start", "random", "middle", "middle-random"};
 
+// In the order of TextureDescription::kind and of ImageTexture::Wrap.
+constexpr std::string_view texture_names[] = {"constant", "scale", "mix", "checkerboard", "imagemap"};
+constexpr std::string_view wrap_names[] = {"repeat", "clamp", "black"};
+
 std::string quoted(std::string_view text) {
   constexpr std::string_view special = "\b\f\n\r\t\\\"", letters = "bfnrt\\\"";
   std::string result = "\"";
@@ -51,18 +55,23 @@ std::string filter_parameters(const PixelFilter& f) {
 // same.
 class Writer {
  public:
-  std::string scene(const SceneDescription& scene) {
+  explicit Writer(const SceneDescription& scene) : scene_(scene) {}
+
+  std::string scene() {
     line(
         "# A scene for Brume: pbrt-v4's language with Brume's additions. Lengths are in world units, colours in "
         "linear");
     line("# sRGB; matrices are written column by column.");
-    options(scene);
-    camera(scene);
+    options(scene_);
+    camera(scene_);
     line("");
     line("WorldBegin");
-    for (const MediumDescription& m : scene.media) medium(m);
-    for (const LightDescription& l : scene.lights) light(l);
-    for (const ShapeDescription& s : scene.shapes) shape(s);
+    for (const MediumDescription& m : scene_.media) medium(m);
+    for (const LightDescription& l : scene_.lights) light(l);
+    for (const TextureDescription& t : scene_.textures) texture(t);
+    for (const ObjectDescription& o : scene_.objects) object(o);
+    for (const ShapeDescription& s : scene_.shapes) shape(s);
+    for (const InstanceDescription& i : scene_.instances) instance(i);
     return std::move(text_);
   }
 
@@ -100,6 +109,15 @@ class Writer {
 
   void colour(std::string_view name, const Spectrum& value) {
     line("  \"rgb {}\" [{} {} {}]", name, value[0], value[1], value[2]);
+  }
+
+  void textured(std::string_view name, const Textured& t, bool is_float = false) {
+    if (t.texture >= 0)
+      line("  \"texture {}\" {}", name, quoted(scene_.textures[static_cast<std::size_t>(t.texture)].name));
+    else if (is_float)
+      line("  \"float {}\" {}", name, t.value[0]);
+    else
+      colour(name, t.value);
   }
 
   void options(const SceneDescription& scene) {
@@ -224,6 +242,65 @@ class Writer {
     colour("L", l.radiance);
   }
 
+  void texture(const TextureDescription& t) {
+    line("");
+    const bool moved = std::visit([](const auto& kind) { return !is_identity(space_of(kind)); }, t.kind);
+    if (moved) begin_moved(std::visit([](const auto& kind) { return space_of(kind); }, t.kind));
+    line("Texture {} \"{}\" \"{}\"", quoted(t.name), t.is_float ? "float" : "spectrum", texture_names[t.kind.index()]);
+    std::visit([&](const auto& kind) { texture_kind(kind, t.is_float); }, t.kind);
+    if (moved) end_block();
+  }
+  template <class Kind>
+  static Transform space_of(const Kind& kind) {
+    if constexpr (requires { kind.mapping; }) return kind.mapping.world_from_texture;
+    return {};
+  }
+  void texture_kind(const ConstantTexture& t, bool is_float) { textured("value", t.value, is_float); }
+  void texture_kind(const ScaleTexture& t, bool is_float) {
+    textured("tex", t.texture, is_float);
+    textured("scale", t.scale, true);
+  }
+  void texture_kind(const MixTexture& t, bool is_float) {
+    textured("tex1", t.first, is_float);
+    textured("tex2", t.second, is_float);
+    textured("amount", t.amount, true);
+  }
+  void texture_kind(const CheckerboardTexture& t, bool is_float) {
+    textured("tex1", t.first, is_float);
+    textured("tex2", t.second, is_float);
+    mapping(t.mapping);
+  }
+  void texture_kind(const ImageTexture& t, bool) {
+    const std::string encoding = t.gamma == 0 ? "sRGB" : t.gamma == 1 ? "linear" : fmt::format("gamma {}", t.gamma);
+    line("  \"string filename\" {} \"string encoding\" \"{}\"", quoted(t.filename), encoding);
+    line("  \"string filter\" \"{}\" \"string wrap\" \"{}\" \"float scale\" {} \"bool invert\" {}",
+         t.bilinear ? "bilinear" : "point", wrap_names[static_cast<std::size_t>(t.wrap)], t.scale, t.invert);
+    mapping(t.mapping);
+  }
+  void mapping(const TextureMapping& m) {
+    if (m.planar)
+      line("  \"string mapping\" \"planar\" \"vector3 v1\" [{}] \"vector3 v2\" [{}]", numbers(m.v1), numbers(m.v2));
+    else
+      line("  \"float uscale\" {} \"float vscale\" {}", m.u_scale, m.v_scale);
+    line("  \"float udelta\" {} \"float vdelta\" {}", m.u_offset, m.v_offset);
+  }
+
+  void object(const ObjectDescription& o) {
+    line("");
+    line("ObjectBegin {}", quoted(o.name));
+    ++depth_;
+    for (const ShapeDescription& s : o.shapes) shape(s);
+    --depth_;
+    line("ObjectEnd");
+  }
+  void instance(const InstanceDescription& i) {
+    line("");
+    begin_block();
+    if (!is_identity(i.world_from_object)) matrix(i.world_from_object);
+    line("ObjectInstance {}", quoted(i.object));
+    end_block();
+  }
+
   void shape(const ShapeDescription& s) {
     line("");
     begin_block();
@@ -240,12 +317,12 @@ class Writer {
 
   void material(const DiffuseMaterial& m) {
     line("Material \"diffuse\"");
-    colour("reflectance", m.reflectance);
+    textured("reflectance", m.reflectance);
   }
   void material(const BlinnPhongMaterial& m) {
     line("Material \"blinnphong\" \"float shininess\" {} \"float metallic\" {}", m.shininess, m.metallic);
-    colour("ambient", m.ambient);
-    colour("diffuse", m.diffuse);
+    textured("ambient", m.ambient);
+    textured("diffuse", m.diffuse);
     colour("specular", m.specular);
     colour("reflection", m.reflection);
     if (is_zero(m.refraction)) return;
@@ -264,7 +341,7 @@ class Writer {
 
   void material(const CoatedDiffuseMaterial& m) {
     line("Material \"coateddiffuse\" \"float eta\" {}", m.eta);
-    colour("reflectance", m.reflectance);
+    textured("reflectance", m.reflectance);
     roughness(m.alpha);
   }
   void roughness(float alpha) {
@@ -277,7 +354,12 @@ class Writer {
     if (l.power > 0) line("  \"float power\" {}", l.power);
   }
 
-  void shape_kind(const SphereShape& s) { line("Shape \"sphere\" \"float radius\" {}", s.radius); }
+  void shape_kind(const SphereShape& s) {
+    line("Shape \"sphere\" \"float radius\" {}", s.radius);
+    if (std::isfinite(s.z_min)) line("  \"float zmin\" {}", s.z_min);
+    if (std::isfinite(s.z_max)) line("  \"float zmax\" {}", s.z_max);
+    if (s.phi_max < 360) line("  \"float phimax\" {}", s.phi_max);
+  }
   void shape_kind(const QuadShape& s) {
     line("Shape \"quad\" \"point3 origin\" [{}]", numbers(s.origin));
     line("  \"vector3 edgeu\" [{}] \"vector3 edgev\" [{}]", numbers(s.edge_u), numbers(s.edge_v));
@@ -289,12 +371,23 @@ class Writer {
   void shape_kind(const CylinderShape& s) {
     line("Shape \"cylinder\" \"float radius\" {} \"float zmin\" {} \"float zmax\" {} \"float phimax\" {}", s.radius,
          s.z_min, s.z_max, s.phi_max);
+    if (s.caps) line("  \"bool caps\" true");
   }
   void shape_kind(const TriangleMeshShape& s) {
     line("Shape \"trianglemesh\"");
     list("\"integer indices\"", flat(s.triangles));
+    vertices(s);
+  }
+  void shape_kind(const BilinearMeshShape& s) {
+    line("Shape \"bilinearmesh\"");
+    list("\"integer indices\"", flat(s.patches));
+    vertices(s);
+  }
+  template <class Mesh>
+  void vertices(const Mesh& s) {
     list("\"point3 P\"", flat(s.positions));
     if (!s.normals.empty()) list("\"normal N\"", flat(s.normals));
+    if (!s.uv.empty()) list("\"point2 uv\"", flat(s.uv));
   }
   void shape_kind(const VolumeShape&) { line("Shape \"volume\""); }
 
@@ -303,9 +396,10 @@ class Writer {
     for (const Vector3& v : vectors) values.insert(values.end(), {v.x, v.y, v.z});
     return values;
   }
-  static std::vector<std::uint32_t> flat(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
-    std::vector<std::uint32_t> values;
-    for (const auto& t : triangles) values.insert(values.end(), t.begin(), t.end());
+  template <class T, std::size_t size>
+  static std::vector<T> flat(const std::vector<std::array<T, size>>& tuples) {
+    std::vector<T> values;
+    for (const auto& t : tuples) values.insert(values.end(), t.begin(), t.end());
     return values;
   }
 
@@ -322,12 +416,13 @@ class Writer {
     line("AttributeEnd");
   }
 
+  const SceneDescription& scene_;
   std::string text_;
   int depth_ = 0;
 };
 
 }  // namespace
 
-std::string write_scene(const SceneDescription& scene) { return Writer().scene(scene); }
+std::string write_scene(const SceneDescription& scene) { return Writer(scene).scene(); }
 
 }  // namespace brume

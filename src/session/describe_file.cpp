@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "base/file.h"
@@ -50,7 +51,7 @@ struct DescribeLight {
 };
 
 std::string describe_shapes(const std::vector<ShapeDescription>& shapes) {
-  constexpr std::array names{"sphere", "triangle mesh", "quad", "disk", "cylinder", "volume"};
+  constexpr std::array names{"sphere", "triangle mesh", "bilinear mesh", "quad", "disk", "cylinder", "volume"};
   static_assert(names.size() == std::variant_size_v<decltype(ShapeDescription::kind)>);
   std::array<int, names.size()> counts{};
   for (const ShapeDescription& shape : shapes) ++counts[shape.kind.index()];
@@ -74,6 +75,10 @@ std::string describe_scene(const std::string& path) {
                          std::visit(DescribeMediumKind{}, medium.kind), text(medium.sigma_s), text(medium.sigma_a),
                          phase_functions()[static_cast<std::size_t>(medium.phase)].table.name);
   lines += fmt::format("  shapes: {}\n", describe_shapes(scene.shapes));
+  for (const ObjectDescription& object : scene.objects)
+    lines += fmt::format("  object {}: {}, {} times\n", object.name, describe_shapes(object.shapes),
+                         std::count_if(scene.instances.begin(), scene.instances.end(),
+                                       [&](const InstanceDescription& i) { return i.object == object.name; }));
   for (const LightDescription& light : scene.lights)
     lines += fmt::format("  light: {}\n", std::visit(DescribeLight{}, light.kind));
   for (const Diagnostic& warning : warnings) lines += to_string(warning) + '\n';

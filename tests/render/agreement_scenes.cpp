@@ -247,6 +247,49 @@ void add_surfaces(std::vector<AgreementScene>& all) {
   all.push_back({"every_light", s});
 }
 
+Textured textured(int texture) {
+  Textured t;
+  t.texture = texture;
+  return t;
+}
+
+// Textures, instances of glass and of smoke, and the shapes that are parts of others.
+void add_textured_instances(std::vector<AgreementScene>& all) {
+  SceneDescription s = view_of({homogeneous_medium("ball", 0.1f, 2), homogeneous_medium("fog", 0.02f, 0.1f)},
+                               {with_material(ground(), DiffuseMaterial{textured(2)})});
+  CheckerboardTexture board;
+  board.first = Spectrum{{0.8f, 0.3f, 0.1f}};
+  board.second.texture = 0;
+  board.mapping.u_scale = 12;
+  board.mapping.v_scale = 12;
+  MixTexture mix;
+  mix.first.texture = 1;
+  mix.second = Spectrum{{0.1f, 0.2f, 0.9f}};
+  s.textures = {{"grey", false, ConstantTexture{constant_spectrum(0.2f)}, {}},
+                {"board", false, board, {}},
+                {"mix", false, mix, {}}};
+  ShapeDescription pipe;
+  pipe.kind = CylinderShape{0.3, -0.5, 0.5, 360, true};
+  pipe.material = BlinnPhongMaterial{textured(1), constant_spectrum(0.2f), {}, 20};
+  ShapeDescription bowl;
+  bowl.kind = SphereShape{0.5, -0.5, 0.1, 300};
+  bowl.world_from_object = translate({0.9, 0, 0}) * rotate(-70, {1, 0, 0});
+  s.objects = {{"things",
+                {pipe, bowl, sphere_shape({0, 0.8, 0}, 0.3, "ball"),
+                 with_material(sphere_shape({-0.8, 0.2, 0}, 0.4, "ball"), DielectricMaterial{1.3f})}}};
+  s.instances = {{"things", translate({-0.3, -0.3, 0}) * scale({0.7, 0.7, 0.7}), {}},
+                 {"things", translate({0.5, 0.5, 0.8}) * rotate(120, {0, 1, 1}) * scale({0.6, -0.9, 0.6}), {}}};
+  ShapeDescription patch;
+  patch.kind = BilinearMeshShape{{{-1.5, 1, 1}, {-0.2, 1.2, 1}, {-1.5, 1.8, 2}, {-0.2, 1.4, 0.5}}, {{0, 1, 2, 3}}};
+  s.shapes.push_back(emitter(patch, 4));
+  s.shapes.back().light->two_sided = true;
+  s.shapes.push_back(emitter(pipe, 5));
+  s.shapes.back().world_from_object = translate({1.4, -0.6, 0.2}) * scale({0.5, 0.5, 0.5});
+  s.shapes.push_back(box_shape({-5, -2, -6}, {5, 4, 5}, "fog"));
+  s.lights = {sky(0.5f)};
+  all.push_back({"textured_instances", s});
+}
+
 void add_depths(std::vector<AgreementScene>& all) {
   for (const int depth : {0, 1, 2, 5}) {
     SceneDescription s =
@@ -270,6 +313,7 @@ std::vector<AgreementScene> agreement_scenes() {
   add_sets_of_media(all);
   add_colours(all);
   add_surfaces(all);
+  add_textured_instances(all);
   add_depths(all);
   return all;
 }

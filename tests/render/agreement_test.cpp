@@ -99,6 +99,8 @@ TEST(AgreementTwins, FaultsAreFound) {
                      [](SceneDescription& s) { std::swap(s.media[0].sigma_s[0], s.media[0].sigma_s[1]); });
   expect_fault_found("emission", [](SceneDescription& s) { s.media[1].emission = 0.9f * s.media[1].emission; });
   expect_fault_found("diffuse_surfaces", [](SceneDescription& s) { s.integrator.max_depth = 2; });
+  expect_fault_found("textured_instances",
+                     [](SceneDescription& s) { std::get<MixTexture>(s.textures[2].kind).amount = Spectrum{}; });
 }
 
 // The same volume told in two ways, both by volpath.

@@ -134,18 +134,23 @@ struct Emitters {
 std::vector<Emitters> emitter_cases() {
   const Transform askew = translate({0.2, 0.1, -1.5}) * rotate(50, {1, 2, 3}) * scale({1.2, 0.3, 0.6});
   TriangleMeshShape mesh = std::get<TriangleMeshShape>(box_shape({-0.3, -0.2, -1.6}, {0.3, 0.5, -0.9}, "").kind);
+  const BilinearMeshShape patch{{{-0.9, -0.8, -1.2}, {0.8, -1, -0.4}, {-1, 0.9, -0.3}, {1, 0.7, -1.5}}, {{0, 1, 2, 3}}};
   const ShapeDescription ball = emitter(SphereShape{0.5}, translate({0.3, 0, -1.5}));
   const ShapeDescription tube = emitter(CylinderShape{0.8, -1, 1.2, 250}, askew, true);
   const ShapeDescription disk = emitter(DiskShape{0.8, 0.1, 0.2, 300}, askew, true);
   const ShapeDescription quad = emitter(QuadShape{}, translate({0.5, 0, -1.2}) * rotate(100, {1, 0, 0}), true);
-  return {{"sphere", {ball}},
-          {"ellipsoid", {emitter(SphereShape{1}, askew)}},
-          {"around", {emitter(SphereShape{3}, scale({1, 1.5, 2}), true)}},
-          {"disk", {disk}},
-          {"cylinder", {tube}},
-          {"quad", {quad}},
-          {"mesh", {emitter(mesh, Transform())}},
-          {"several", {tube, quad, emitter(mesh, translate({-0.9, 0, 0}))}}};
+  return {
+      {"sphere", {ball}},
+      {"ellipsoid", {emitter(SphereShape{1}, askew)}},
+      {"around", {emitter(SphereShape{3}, scale({1, 1.5, 2}), true)}},
+      {"disk", {disk}},
+      {"cylinder", {tube}},
+      {"quad", {quad}},
+      {"mesh", {emitter(mesh, Transform())}},
+      {"cap", {emitter(CylinderShape{0.4, -0.5, 0.7, 360, true}, translate({0.4, 0, -1.3}) * rotate(60, {1, 2, 0}))}},
+      {"bowl", {emitter(SphereShape{0.7, -0.5, 0.2, 300}, translate({0.3, 0.1, -1}) * rotate(20, {1, 0, 0}), true)}},
+      {"patch", {emitter(patch, Transform(), true)}},
+      {"several", {tube, quad, emitter(mesh, translate({-0.9, 0, 0}))}}};
 }
 
 TEST_P(Lights, EmittersAsBrightAsTheSkyCannotBeSeen) {
@@ -159,6 +164,30 @@ TEST_P(Lights, EmittersAsBrightAsTheSkyCannotBeSeen) {
     for (CompiledQuadric& q : faulty.quadrics) q.world_from_object = q.world_from_object * scale({1.4, 1.4, 1.4});
     const Estimate e = estimate_compiled(std::move(faulty), 600);
     EXPECT_GT(std::abs(e.mean - 0.5), 8 * e.standard_error) << emitters.name;
+  }
+}
+
+// Where a sample goes, a ray that meets the light has the sample's density.
+TEST(LightSamples, HaveTheDensityOfTheirRays) {
+  for (const Emitters& emitters : emitter_cases()) {
+    const CompiledScene scene = compiled(lit_square("reference", emitters.shapes));
+    const Intersector intersector(scene);
+    int met = 0;
+    for (int i = 0; i < 2000; ++i) {
+      RandomStream random(scene, 0, 0, i);
+      const int picked = i % static_cast<int>(scene.lights.size());
+      const CompiledLight& light = scene.lights[static_cast<std::size_t>(picked)];
+      const LightSample s = sample_light(scene, light, {0.05f, -0.1f, -0.02f}, nullptr, random);
+      SurfaceHit hit;
+      if (is_zero(s.value) || !intersector.nearest_surface({s.ray.origin, s.ray.direction}, hit)) continue;
+      if (scene.shapes[static_cast<std::size_t>(hit.shape)].light != picked) continue;
+      if (std::abs(hit.t - s.ray.t_max) > 1e-3f) continue;  // another part of it is in front
+      // The ray's end is a little off the light: where it grazes, the ray meets another place.
+      if (std::abs(dot(hit.normal, s.ray.direction)) < 0.2f) continue;
+      ++met;
+      EXPECT_NEAR(light_pdf(scene, light, s.ray, nullptr, hit), s.pdf, 2e-3f * s.pdf) << emitters.name;
+    }
+    EXPECT_GT(met, 200) << emitters.name;
   }
 }
 

@@ -105,17 +105,6 @@ TEST(ReadShapes, DisksAndCylinders) {
   EXPECT_EQ(cylinder.phi_max, 360);
 }
 
-TEST(ReadShapes, ABilinearPatchThatIsFlatIsTwoTriangles) {
-  const SceneDescription s =
-      world_of("Shape \"bilinearmesh\" \"point3 P\" [0 0 0  2 0 0  0 1 0  2 1 0] \"point2 uv\" [0 0 1 0 0 1 1 1]");
-  ASSERT_EQ(s.shapes.size(), 1u);
-  const auto& mesh = std::get<TriangleMeshShape>(s.shapes[0].kind);
-  const std::vector<std::array<std::uint32_t, 3>> triangles = {{0, 1, 3}, {0, 3, 2}};
-  EXPECT_EQ(mesh.triangles, triangles);
-  EXPECT_EQ(errors_of("WorldBegin\nShape \"bilinearmesh\" \"point3 P\" [0 0 0  2 0 0  0 1 0  2 1 1]"),
-            std::vector<std::string>{"patch 0 of Shape \"bilinearmesh\" is not flat; only flat ones are read"});
-}
-
 TEST(ReadShapes, MeshesOfPlyFiles) {
   const TemporaryFolder folder;
   std::ofstream(folder.file("mesh.ply"))

@@ -95,15 +95,28 @@ void expect_equal(const ShapeDescription& a, const ShapeDescription& b) {
     EXPECT_EQ(cylinder->z_min, other.z_min);
     EXPECT_EQ(cylinder->z_max, other.z_max);
     EXPECT_EQ(cylinder->phi_max, other.phi_max);
+    EXPECT_EQ(cylinder->caps, other.caps);
   }
   if (const auto* sphere = std::get_if<SphereShape>(&a.kind)) {
-    EXPECT_EQ(sphere->radius, std::get<SphereShape>(b.kind).radius);
+    const auto& other = std::get<SphereShape>(b.kind);
+    EXPECT_EQ(sphere->radius, other.radius);
+    EXPECT_EQ(sphere->z_min, other.z_min);
+    EXPECT_EQ(sphere->z_max, other.z_max);
+    EXPECT_EQ(sphere->phi_max, other.phi_max);
   }
   if (const auto* mesh = std::get_if<TriangleMeshShape>(&a.kind)) {
     const auto& other = std::get<TriangleMeshShape>(b.kind);
     EXPECT_EQ(mesh->positions, other.positions);
     EXPECT_EQ(mesh->triangles, other.triangles);
     EXPECT_EQ(mesh->normals, other.normals);
+    EXPECT_EQ(mesh->uv, other.uv);
+  }
+  if (const auto* patches = std::get_if<BilinearMeshShape>(&a.kind)) {
+    const auto& other = std::get<BilinearMeshShape>(b.kind);
+    EXPECT_EQ(patches->positions, other.positions);
+    EXPECT_EQ(patches->patches, other.patches);
+    EXPECT_EQ(patches->normals, other.normals);
+    EXPECT_EQ(patches->uv, other.uv);
   }
   if (const auto* quad = std::get_if<QuadShape>(&a.kind)) {
     const auto& other = std::get<QuadShape>(b.kind);
@@ -149,6 +162,17 @@ void expect_equal(const LightDescription& a, const LightDescription& b) {
   }
 }
 
+void expect_equal(const TextureDescription& a, const TextureDescription& b) {
+  EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.is_float, b.is_float);
+  EXPECT_EQ(a.kind, b.kind) << a.name;
+}
+
+void expect_equal(const std::vector<ShapeDescription>& a, const std::vector<ShapeDescription>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) expect_equal(a[i], b[i]);
+}
+
 // Exact but for the camera's matrix, which the language gives by its inverse.
 void expect_equal(const SceneDescription& a, const SceneDescription& b) {
   EXPECT_EQ(a.film.filename, b.film.filename);
@@ -177,8 +201,19 @@ void expect_equal(const SceneDescription& a, const SceneDescription& b) {
   EXPECT_EQ(a.camera.medium, b.camera.medium);
   ASSERT_EQ(a.media.size(), b.media.size());
   for (std::size_t i = 0; i < a.media.size(); ++i) expect_equal(a.media[i], b.media[i]);
-  ASSERT_EQ(a.shapes.size(), b.shapes.size());
-  for (std::size_t i = 0; i < a.shapes.size(); ++i) expect_equal(a.shapes[i], b.shapes[i]);
+  ASSERT_EQ(a.textures.size(), b.textures.size());
+  for (std::size_t i = 0; i < a.textures.size(); ++i) expect_equal(a.textures[i], b.textures[i]);
+  expect_equal(a.shapes, b.shapes);
+  ASSERT_EQ(a.objects.size(), b.objects.size());
+  for (std::size_t i = 0; i < a.objects.size(); ++i) {
+    EXPECT_EQ(a.objects[i].name, b.objects[i].name);
+    expect_equal(a.objects[i].shapes, b.objects[i].shapes);
+  }
+  ASSERT_EQ(a.instances.size(), b.instances.size());
+  for (std::size_t i = 0; i < a.instances.size(); ++i) {
+    EXPECT_EQ(a.instances[i].object, b.instances[i].object);
+    EXPECT_EQ(a.instances[i].world_from_object, b.instances[i].world_from_object);
+  }
   ASSERT_EQ(a.lights.size(), b.lights.size());
   for (std::size_t i = 0; i < a.lights.size(); ++i) expect_equal(a.lights[i], b.lights[i]);
 }
@@ -196,7 +231,8 @@ TEST_P(WriteSceneFile, ReadsBackTheSame) {
   expect_round_trip(read_scene(test_folder(std::string("scenes/") + GetParam()), warnings));
 }
 INSTANTIATE_TEST_SUITE_P(Scenes, WriteSceneFile,
-                         testing::Values("fog.pbrt", "smoke.pbrt", "additions.pbrt", "surfaces.pbrt", "classic.pbrt"));
+                         testing::Values("fog.pbrt", "smoke.pbrt", "additions.pbrt", "surfaces.pbrt", "classic.pbrt",
+                                         "shapes.pbrt"));
 
 TEST(WriteScene, AnEmptySceneReadsBackTheSame) { expect_round_trip({}); }
 
