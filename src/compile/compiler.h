@@ -33,7 +33,19 @@ class Compiler {
   // names that are not defined (an error).
   std::int32_t medium_index(const std::string& name, const Location& used_at);
   CompiledMedium make_medium(const MediumDescription& medium);
-  int grid_index(const MediumDescription& medium, CompiledMedium& compiled);
+  struct LoadedGrid {
+    int index;  // below 0: none
+    Transform medium_from_index;
+  };
+  // The grid that `load` returns, or one that was loaded before under the same key. One that cannot be read is an error
+  // at the medium.
+  template <class Load>
+  LoadedGrid loaded_grid(const MediumDescription& medium, const std::string& key, Load load);
+  LoadedGrid density_grid(const MediumDescription& medium);
+  LoadedGrid temperature_grid(const MediumDescription& medium);
+  LoadedGrid strength_grid(const MediumDescription& medium);
+  // Emission by temperatures or from place to place, for a medium whose grid is there and that emits.
+  void add_emission_factor(const MediumDescription& medium, const LoadedGrid& density, CompiledMedium& compiled);
 
   // The medium fills the bounds of its grid.
   void add_volume(std::int32_t medium);
@@ -60,10 +72,6 @@ class Compiler {
     double area;  // in the world
   };
   std::vector<LightArea> light_areas_;  // of the area lights
-  struct LoadedGrid {
-    int index;
-    Transform medium_from_index;
-  };
   std::map<std::string, LoadedGrid> grids_;  // by file, grid, storage and interpolation
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace brume {
@@ -34,17 +35,33 @@ double lobe(double x, double mean, double below, double above) {
   return std::exp(-0.5 * t * t);
 }
 
-Vector3 matching_functions(double nm) {
+Vector3 matching_functions_at(double nm) {
   return {
       1.056 * lobe(nm, 599.8, 37.9, 31.0) + 0.362 * lobe(nm, 442.0, 16.0, 26.7) - 0.065 * lobe(nm, 501.1, 20.4, 26.2),
       0.821 * lobe(nm, 568.8, 46.9, 40.5) + 0.286 * lobe(nm, 530.9, 16.3, 31.1),
       1.217 * lobe(nm, 437.0, 11.8, 36.0) + 0.681 * lobe(nm, 459.0, 26.0, 13.8)};
 }
 
+const Vector3& matching_functions(int nm) {
+  static const auto table = [] {
+    std::array<Vector3, longest - shortest + 1> all;
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = matching_functions_at(shortest + static_cast<double>(i));
+    return all;
+  }();
+  return table[static_cast<std::size_t>(nm - shortest)];
+}
+
 // Planck's law but for a factor that does not depend on the wavelength.
 double planck(double nm, double kelvin) {
   constexpr double second_radiation_constant = 1.438776877e7;  // nm K
-  return std::pow(nm / 560, -5) / std::expm1(second_radiation_constant / (nm * kelvin));
+  const double x = 560 / nm;
+  return x * x * x * x * x / std::expm1(second_radiation_constant / (nm * kelvin));
+}
+
+Vector3 blackbody_xyz(double kelvin) {
+  Vector3 xyz;
+  for (int nm = shortest; nm <= longest; ++nm) xyz = xyz + planck(nm, kelvin) * matching_functions(nm);
+  return xyz;
 }
 
 // True where the pairs wavelength, value have one value throughout.
@@ -114,9 +131,14 @@ double luminance(const Spectrum& colour) {
 
 Spectrum equal_energy_white() { return at_luminance_1(from_xyz({1, 1, 1})); }
 
+Spectrum blackbody_emission(double kelvin) {
+  if (!(kelvin > 0)) return {};
+  constexpr double wien = 2.897771955e6;  // nm K: where Planck's law is largest
+  return from_xyz((1 / planck(wien / kelvin, kelvin)) * blackbody_xyz(kelvin));
+}
+
 Spectrum blackbody_colour(double kelvin) {
-  Vector3 xyz;
-  for (int nm = shortest; nm <= longest; ++nm) xyz = xyz + planck(nm, kelvin) * matching_functions(nm);
+  const Vector3 xyz = blackbody_xyz(kelvin);
   return at_luminance_1(from_xyz((1 / xyz.y) * xyz));
 }
 

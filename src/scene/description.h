@@ -79,13 +79,18 @@ struct HomogeneousMedium {};
 struct UniformGridMedium {
   std::array<int, 3> resolution{1, 1, 1};
   Vector3 p0{0, 0, 0}, p1{1, 1, 1};
-  std::vector<float> density;  // x fastest
+  std::vector<float> density;        // x fastest
+  std::vector<float> temperature{};  // the same; empty: none
+  std::vector<float> strength{};     // what emission is multiplied by; empty: 1 everywhere
 };
 
 // Type "vdb", "nanovdb" or "vol": a grid from a file (its suffix says of which kind), read when the scene is compiled.
 struct FileMedium {
   std::string filename;  // resolved
   std::string grid;      // "" chooses
+  // Of temperatures; "": none. One that was not asked for by name may be missing.
+  std::string temperature_grid{};
+  bool temperature_asked_for = false;
 };
 
 // Type "procedural".
@@ -93,11 +98,21 @@ struct ProceduralMedium {
   Procedural procedural = usual_procedural(ProceduralName::cloud);
 };
 
+// Emission by temperature: where the medium's grid of temperatures holds t, as of a black body at (t - offset) scale
+// kelvin.
+struct TemperatureScale {
+  double offset = 0, scale = 1;
+  bool operator==(const TemperatureScale&) const = default;
+};
+
 struct MediumDescription {
   std::string name;
   Transform world_from_medium;
   Spectrum sigma_a = constant_spectrum(1), sigma_s = constant_spectrum(1);
-  Spectrum emission;                            // Le: the emitted radiance is sigma_a Le per unit of length
+  // Le: the emitted radiance is sigma_a Le per unit of length. With temperatures, what black bodies' colours (see
+  // blackbody_emission in scene/colour.h) are multiplied by.
+  Spectrum emission;
+  std::optional<TemperatureScale> temperatures{};
   int phase = phase_kind("henyey_greenstein");  // index into phase_functions()
   std::vector<float> phase_parameters = {0};    // in the order of the phase function's table
   bool linear_interpolation = true;

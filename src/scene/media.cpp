@@ -6,15 +6,11 @@
 #include <limits>
 
 #include "kernel/phase_table.h"
+#include "scene/media.h"
 #include "scene/reader.h"
 
 namespace brume {
 
-namespace {
-
-constexpr std::int64_t max_voxels_along_axis = 65536;
-
-// The product of a factor and a colour, which must fit floats.
 Spectrum scaled(ParameterList& p, double factor, const Spectrum& colour, std::string_view what) {
   Spectrum product;
   for (int c = 0; c < channel_count; ++c) {
@@ -28,32 +24,37 @@ Spectrum scaled(ParameterList& p, double factor, const Spectrum& colour, std::st
   return product;
 }
 
+std::vector<float> read_cells(ParameterList& p, std::string_view name, const std::array<int, 3>& resolution,
+                              const Range& range) {
+  Parameter* parameter = p.find(ParameterType::float_, name);
+  if (!parameter) return {};
+  const std::vector<double>& values = parameter->numbers;
+  const std::int64_t cells = std::int64_t{resolution[0]} * resolution[1] * resolution[2];
+  if (static_cast<std::int64_t>(values.size()) != cells) {
+    p.value_error(*parameter, 0,
+                  fmt::format("must have nx ny nz = {} x {} x {} = {} values, found {}", resolution[0], resolution[1],
+                              resolution[2], cells, values.size()));
+    return {};
+  }
+  const auto wrong = std::find_if(values.begin(), values.end(), [&](double v) { return !range.holds(v); });
+  if (wrong != values.end())
+    p.value_error(*parameter, static_cast<std::size_t>(wrong - values.begin()),
+                  fmt::format("{}, found {}", range.text(), *wrong));
+  std::vector<float> result(values.size());
+  std::transform(values.begin(), values.end(), result.begin(), [](double v) { return static_cast<float>(v); });
+  parameter->numbers = {};
+  return result;
+}
+
+namespace {
+
+constexpr std::int64_t max_voxels_along_axis = 65536;
+
 void read_coefficients(ParameterList& p, MediumDescription& medium) {
   p.refuse({"string preset"}, "is not supported yet; give sigma_a and sigma_s");
   const double scale = p.number("scale", 1, Range::at_least(0));
   medium.sigma_a = scaled(p, scale, p.colour("sigma_a", constant_spectrum(1), ColourUse::coefficient), "sigma_a");
   medium.sigma_s = scaled(p, scale, p.colour("sigma_s", constant_spectrum(1), ColourUse::coefficient), "sigma_s");
-}
-
-void read_emission(ParameterList& p, MediumDescription& medium) {
-  p.rename("LeScale", "Lescale");
-  const Spectrum emission = p.colour("Le", Spectrum{}, ColourUse::light);
-  const Parameter* scale = p.find(ParameterType::float_, "Lescale");
-  double factor = 1;
-  if (scale && scale->numbers.size() > 1)
-    p.value_error(*scale, 0,
-                  fmt::format("takes one value, found {}: emission that varies in space is not supported yet",
-                              scale->numbers.size()));
-  else
-    factor = p.number("Lescale", 1, Range::at_least(0));
-  medium.emission = scaled(p, factor, emission, "Le");
-}
-
-// Fire from temperatures is left out, and the rest of the medium rendered.
-void warn_of_temperature(ParameterList& p) {
-  p.warn({"string temperaturename", "float temperatureoffset", "float temperaturecutoff", "float temperaturescale",
-          "float temperature"},
-         "has no effect: emission by temperature is not supported yet");
 }
 
 // The phase function's name and its own parameters, from the kernel's tables; without a name henyey_greenstein.
@@ -85,28 +86,6 @@ void read_grid_settings(ParameterList& p, MediumDescription& medium) {
   medium.storage_bits = static_cast<int>(bits);
 }
 
-// The densities, whose number must be that of the cells.
-void read_density(ParameterList& p, UniformGridMedium& grid) {
-  p.require(ParameterType::float_, "density");
-  Parameter* density = p.find(ParameterType::float_, "density");
-  if (!density) return;
-  const std::vector<double>& values = density->numbers;
-  const std::int64_t cells = std::int64_t{grid.resolution[0]} * grid.resolution[1] * grid.resolution[2];
-  if (static_cast<std::int64_t>(values.size()) != cells) {
-    p.value_error(*density, 0,
-                  fmt::format("must have nx ny nz = {} x {} x {} = {} values, found {}", grid.resolution[0],
-                              grid.resolution[1], grid.resolution[2], cells, values.size()));
-    return;
-  }
-  const auto negative = std::find_if(values.begin(), values.end(), [](double v) { return v < 0; });
-  if (negative != values.end())
-    p.value_error(*density, static_cast<std::size_t>(negative - values.begin()),
-                  fmt::format("must not be negative, found {}", *negative));
-  grid.density.resize(values.size());
-  std::transform(values.begin(), values.end(), grid.density.begin(), [](double v) { return static_cast<float>(v); });
-  density->numbers = {};
-}
-
 UniformGridMedium read_uniform_grid(ParameterList& p) {
   UniformGridMedium grid;
   const char* const names[] = {"nx", "ny", "nz"};
@@ -120,16 +99,14 @@ UniformGridMedium read_uniform_grid(ParameterList& p) {
     if (p0[axis] == p1[axis])
       p.error(p.place(), fmt::format("the box of {} is flat: p0 and p1 have the same {}", p.owner(), "xyz"[axis]));
   }
-  read_density(p, grid);
-  warn_of_temperature(p);
+  p.require(ParameterType::float_, "density");
+  grid.density = read_cells(p, "density", grid.resolution, Range::at_least(0));
   return grid;
 }
 
-// Kinds that have a temperature beside their density are made as files; a medium has one grid.
 ProceduralMedium read_procedural(ParameterList& p) {
   std::vector<std::string_view> names;
-  for (const ProceduralKind& kind : procedural_kinds)
-    if (!kind.has_temperature) names.push_back(kind.name);
+  for (const ProceduralKind& kind : procedural_kinds) names.push_back(kind.name);
   const auto kind = static_cast<ProceduralName>(p.choice("kind", names, 0));
   Procedural procedural = usual_procedural(kind);
   procedural.size = static_cast<int>(p.integer("size", procedural.size, min_procedural_size, max_procedural_size));
@@ -166,7 +143,6 @@ void Reader::make_named_medium() {
   medium.location = location(directive_.place);
   medium.world_from_medium = usable_ctm("the medium");
   read_coefficients(p, medium);
-  read_emission(p, medium);
   read_phase(p, medium);
   if (type != "homogeneous") read_grid_settings(p, medium);
   if (type == "homogeneous") {
@@ -178,8 +154,8 @@ void Reader::make_named_medium() {
   } else {
     p.require(ParameterType::string, "filename");
     medium.kind = FileMedium{resolve(p.string("filename", "")), p.string("gridname", "")};
-    warn_of_temperature(p);
   }
+  read_emission(p, medium);
   p.finish();
 
   if (const auto [known, is_new] = media_by_name_.try_emplace(name, scene_.media.size()); is_new)

@@ -143,7 +143,10 @@ class Writer {
     line("  # per world unit, at density 1");
     colour("sigma_a", m.sigma_a);
     colour("sigma_s", m.sigma_s);
-    if (!is_zero(m.emission)) colour("Le", m.emission);
+    if (m.temperatures)
+      temperatures(*m.temperatures, m.emission[0]);
+    else if (!is_zero(m.emission))
+      colour("Le", m.emission);
     const PhaseFunction& phase = phase_functions()[static_cast<std::size_t>(m.phase)].table;
     line("  \"string phase\" \"{}\"", phase.name);
     for (std::size_t i = 0; i < m.phase_parameters.size(); ++i)
@@ -154,6 +157,12 @@ class Writer {
     if (moved) end_block();
   }
 
+  void temperatures(const TemperatureScale& t, float strength) {
+    if (t != TemperatureScale{})
+      line("  \"float temperatureoffset\" {} \"float temperaturescale\" {}", t.offset, t.scale);
+    if (strength != 1) line("  \"float Lescale\" {}", strength);
+  }
+
   void medium_kind(const HomogeneousMedium&) { line("  \"string type\" \"homogeneous\""); }
   void medium_kind(const UniformGridMedium& grid) {
     line("  \"string type\" \"uniformgrid\"");
@@ -161,11 +170,15 @@ class Writer {
          grid.resolution[2]);
     line("  \"point3 p0\" [{}] \"point3 p1\" [{}]", numbers(grid.p0), numbers(grid.p1));
     list("\"float density\"", grid.density);
+    if (!grid.temperature.empty()) list("\"float temperature\"", grid.temperature);
+    if (!grid.strength.empty()) list("\"float Lescale\"", grid.strength);
   }
   void medium_kind(const FileMedium& file) {
     line("  \"string type\" \"{}\" \"string filename\" {}", suffix(file.filename) == ".vol" ? "vol" : "vdb",
          quoted(file.filename));
     if (!file.grid.empty()) line("  \"string gridname\" {}", quoted(file.grid));
+    if (file.temperature_asked_for || file.temperature_grid.empty())
+      line("  \"string temperaturename\" {}", quoted(file.temperature_grid));
   }
   void medium_kind(const ProceduralMedium& medium) {
     const Procedural& p = medium.procedural;

@@ -15,6 +15,9 @@ namespace brume {
 // max_procedural_size.
 VolumeGrid procedural_density(const Procedural& procedural, Storage storage, int threads);
 
+// Its temperatures in kelvin, 0 where nothing is hot; only of kinds that have them.
+VolumeGrid procedural_temperature(const Procedural& procedural, Storage storage, int threads);
+
 // All of its grids: "density" and, where the kind has it, "temperature", in kelvin and 0 where nothing is hot.
 std::vector<VolumeGrid> procedural_grids(const Procedural& procedural, Storage storage, int threads);
 

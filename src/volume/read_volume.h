@@ -1,6 +1,7 @@
 // Volume files: .vdb (OpenVDB), .nvdb (NanoVDB) and .vol (Mitsuba).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,5 +37,8 @@ std::vector<GridInfo> list_grids(const std::string& path);
 // value stored for a voxel, marked active or not, as OpenVDB's and NanoVDB's own samplers take it, and 0 outside the
 // box of the active voxels (of all voxels in a .vol). Throws InputError.
 VolumeGrid read_volume(const std::string& path, const std::string& name, Storage storage);
+
+// The grid of that name, if there is one that can be rendered.
+std::optional<VolumeGrid> find_volume(const std::string& path, const std::string& name, Storage storage);
 
 }  // namespace brume

@@ -101,6 +101,15 @@ inline void call_cell_mean_linear(const F* in, F* out, const TestGrid& g) {
   const Cell cell = grid_cell(call_grid(g), x, y, z);
   out[0] = cell_mean_linear(cell, x, y, z, call_vec3(in), call_vec3(in + 3), F(0.0f), in[6]);
 }
+// With the grid, turned a little, as temperature and as strength.
+inline void call_emission_factor(const F* in, F* out, const TestGrid& g) {
+  const PlacedGrid placed = {
+      call_grid(g), {0.9f, 0.1f, 0, 1, -0.1f, 0.9f, 0, 2, 0, 0, 1, -1}, {0, 0, 0}, {20, 17, 19}, true};
+  const vec3 factor = emission_factor({true, true, placed, placed, 0.1f, 9000.0f, g.blackbody}, call_vec3(in));
+  out[0] = factor.x;
+  out[1] = factor.y;
+  out[2] = factor.z;
+}
 
 #define PHASE(name)                                                             \
   inline void call_##name##_eval(const F* in, F* out, const TestGrid&) {        \
@@ -136,6 +145,7 @@ constexpr KernelCall kernel_calls[] = {
     CALL(cell_mean_linear, 7, 1), CALL(sobol_pair, 6, 2),
     CALL(atan_turns, 1, 1),       CALL(random_words, 4, 4),
     CALL(majorant_walk, 6, 24),   CALL(grid_stochastic, 5, 1),
+    CALL(emission_factor, 3, 3),
 #include "kernel/phase_list.inl"
 };
 #undef PHASE

@@ -179,6 +179,29 @@ void add_sets_of_media(std::vector<AgreementScene>& all) {
                                                     box_shape({0.2, -1, -1}, {1, 1, 1}, "ball")})});
 }
 
+// Flames, thin and thick, with other media in and about them; all of their light comes from temperatures.
+void add_fire(std::vector<AgreementScene>& all) {
+  const auto fire = [](float sigma_a, float sigma_s, float strength) {
+    MediumDescription m = homogeneous_medium("fire", sigma_a, sigma_s);
+    m.kind = ProceduralMedium{usual_procedural(ProceduralName::fire, 40, 1)};
+    m.temperatures = TemperatureScale{};
+    m.emission = constant_spectrum(strength);
+    return m;
+  };
+  SceneDescription s = view_of({fire(1, 0.5f, 3)}, {free_volume("fire")});
+  s.camera.fov = 16;
+  s.lights.clear();
+  all.push_back({"fire", s});
+  s.media[0] = fire(20, 40, 1);
+  s.media[0].linear_interpolation = false;
+  s.integrator.max_depth = 4;
+  all.push_back({"thick_fire", s});
+  s = view_of({fire(4, 2, 1), coloured(smoke("a", 0, 0), red, blue)}, {free_volume("fire"), free_volume("a"), ground()});
+  s.media[1].emission = Spectrum{{0.1f, 0.2f, 0.4f}};
+  s.integrator.max_depth = 3;
+  all.push_back({"fire_in_smoke", s});
+}
+
 void add_colours(std::vector<AgreementScene>& all) {
   const auto grid = smoke("a", 0, 0), other = turned(smoke("b", 0, 0, 7), 40);
   const auto ball = homogeneous_medium("ball", 0, 0);
@@ -210,6 +233,7 @@ void add_colours(std::vector<AgreementScene>& all) {
   s.media[0].emission = s.media[1].emission = Spectrum{{3, 2, 1}};
   s.lights.clear();
   all.push_back({"emission", s});
+  add_fire(all);
 }
 
 void add_surfaces(std::vector<AgreementScene>& all) {
