@@ -26,9 +26,14 @@ std::vector<std::uint32_t> blackbody_table() {
 // not tell all of what is between them.
 constexpr float density_share = 0.05f;
 
+// A medium is thin where a free path is longer than this. (Of a procedural flame of extinction 0.3, 2 and 15, whose
+// diagonal is 2.4, the error is 1/15, 1/2.7 and 1/1.1 of that of collisions alone; of gathering along flights alone it
+// is the same, a tenth more and 2.8 times as large.)
+constexpr double thin_in_diagonals = 0.1;
+
 // CompiledEmissionFactor::cells.
 std::vector<std::uint32_t> emission_cells(const CompiledGrid& grid, const CompiledMedium& medium,
-                                          const kernel::EmissionField& field, int threads) {
+                                          const kernel::EmissionField& field, float thin, int threads) {
   const auto row = static_cast<int>(grid.majorant_row), layer = static_cast<int>(grid.majorant_layer);
   const int layers = static_cast<int>(grid.majorants.size()) / layer;
   const int edge = static_cast<int>(std::lround(1 / grid.majorant_cells_per_voxel));
@@ -69,10 +74,22 @@ std::vector<std::uint32_t> emission_cells(const CompiledGrid& grid, const Compil
   }
   const double by_density = all_emitted > 0 ? density_share * all_emitted / std::max(all_density, 1e-30) : 1;
   std::vector<std::uint32_t> cells(means.size());
-  for (std::size_t i = 0; i < means.size(); ++i)
-    cells[i] = std::bit_cast<std::uint32_t>(means[i] +
-                                            static_cast<float>(by_density) * std::bit_cast<float>(grid.majorants[i]));
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    const auto majorant = std::bit_cast<float>(grid.majorants[i]);
+    const float weight = means[i] + static_cast<float>(by_density) * majorant;
+    const float share = kernel::emission_along_flights(majorant * max_value(medium.sigma_t), thin);
+    cells[i] = std::bit_cast<std::uint32_t>(share * weight);
+  }
   return cells;
+}
+
+double world_diagonal(const CompiledGrid& grid, const Transform& world_from_index) {
+  Vector3 diagonal;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    diagonal[axis] = static_cast<double>(grid.bounds_hi[a] - grid.bounds_lo[a]);
+  }
+  return length(world_from_index.vector(diagonal));
 }
 
 }  // namespace
@@ -99,9 +116,11 @@ void Compiler::add_emission_factor(const MediumDescription& medium, const Loaded
     factor.strength_from_index = own_from_index(strength);
   }
   c.emission_factor = static_cast<int>(compiled_.emission_factors.size());
+  const CompiledGrid& grid = compiled_.grids[static_cast<std::size_t>(c.grid)];
+  factor.thin = static_cast<float>(thin_in_diagonals * world_diagonal(grid, inverse(c.index_from_world)));
   compiled_.emission_factors.push_back(factor);
   compiled_.emission_factors.back().cells =
-      emission_cells(compiled_.grids[static_cast<std::size_t>(c.grid)], c, emission_field(compiled_, c), threads_);
+      emission_cells(grid, c, emission_field(compiled_, c), factor.thin, threads_);
 }
 
 }  // namespace brume

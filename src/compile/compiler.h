@@ -71,7 +71,7 @@ class Compiler {
     std::size_t light;
     double area;  // in the world
   };
-  std::vector<LightArea> light_areas_;  // of the area lights
+  std::vector<LightArea> light_areas_;       // of the area lights
   std::map<std::string, LoadedGrid> grids_;  // by file, grid, storage and interpolation
 };
 

@@ -50,12 +50,13 @@ struct CompiledMedium {
 
 // What emission is multiplied by from place to place (kernel/emission.inl), and where to look for it.
 struct CompiledEmissionFactor {
-  int temperature = -1, strength = -1;                      // grids; below 0: none
-  Transform temperature_from_index, strength_from_index;    // from the index coordinates of the medium's density
+  int temperature = -1, strength = -1;                    // grids; below 0: none
+  Transform temperature_from_index, strength_from_index;  // from the index coordinates of the medium's density
   float temperature_offset = 0, temperature_scale = 1;
-  // Of each of the density's cells of majorants: about how much is emitted in it, on the average and in proportion.
-  // Above 0 wherever the density is.
+  // Of each of the density's cells of majorants: about how much of what is emitted in it is to be gathered along
+  // flights, in proportion. Above 0 wherever the density is.
   std::vector<std::uint32_t> cells;
+  float thin = 0;  // world units; see emission_along_flights of the kernel
 };
 
 // A medium that fills a box: lo <= p <= hi in the coordinates of box_from_world, which for a grid are its index

@@ -1,6 +1,6 @@
-// What a medium with a grid emits from place to place: the factor of its emission coefficient, beside density. It is the
-// colour of a black body at the temperature that another grid gives, times the value of a third grid; where there is
-// neither, 1. Source: M. Pharr, W. Jakob and G. Humphreys, Physically Based Rendering, 4th ed. 2023, section 11.4.
+// What a medium with a grid emits from place to place: the factor of its emission coefficient, beside density. It is
+// the colour of a black body at the temperature that another grid gives, times the value of a third grid; where there
+// is neither, 1. Source: M. Pharr, W. Jakob and G. Humphreys, Physically Based Rendering, 4th ed. 2023, section 11.4.
 
 // A grid in the index coordinates p of another: its own are rows r of `to_own`, r.xyz . p + r.w.
 struct PlacedGrid {
@@ -53,6 +53,14 @@ KERNEL vec3 blackbody_at(Words table, F kelvin) {
   return vec3(select(glows, blackbody_channel(table, entry, fraction), F(0.0f)),
               select(glows, blackbody_channel(table, entry + 1, fraction), F(0.0f)),
               select(glows, blackbody_channel(table, entry + 2, fraction), F(0.0f)));
+}
+
+// The share of the emission of a place that is gathered along flights, by the bound of the extinction there; the rest
+// is seen where paths collide. Where the medium is thin, few do: `thin` is the length of a free path from which on more
+// than half is gathered along flights.
+KERNEL F emission_along_flights(F majorant, float thin) {
+  F depth = majorant * thin;
+  return F(1.0f) / fma(depth, depth, F(1.0f));
 }
 
 KERNEL vec3 emission_factor(EmissionField e, vec3 p) {

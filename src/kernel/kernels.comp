@@ -94,5 +94,5 @@ void main() {
   placed.linear = true;
   EmissionField field = EmissionField(true, true, placed, placed, u[0], 2000.0, arguments.majorants);
   vec3 emitted = emission_factor(field, origin * 8.0);
-  results[out_index + 27] = emitted.x + emitted.y + emitted.z;
+  results[out_index + 27] = emitted.x + emitted.y + emitted.z + emission_along_flights(u[0], u[1]);
 }

@@ -23,7 +23,11 @@ constexpr float faint_share = 1.0f / 32;
 
 ClassicIntegrator::ClassicIntegrator(const CompiledScene& scene, const Intersector& intersector,
                                      const MediaAlongRay& media)
-    : scene_(scene), intersector_(intersector), media_(media), emission_fields_(emission_fields(scene)), visibility_(scene, intersector, media) {}
+    : scene_(scene),
+      intersector_(intersector),
+      media_(media),
+      emission_fields_(emission_fields(scene)),
+      visibility_(scene, intersector, media) {}
 
 Spectrum ClassicIntegrator::radiance(Ray ray, RandomStream& random) {
   Spectrum result, throughput = constant_spectrum(1);

@@ -39,6 +39,7 @@ HWY_INLINE void advance(StretchWalk& s, const StretchCell& cell, B moves) {
 
 struct ChosenPlace {
   F t, density;  // density: per unit of length; 0 where there is nothing to choose
+  F majorant;    // of the extinction there
 };
 
 // A place on the stretch entry + t direction, t in [0, length], by its cells' weights.
@@ -58,7 +59,7 @@ HWY_INLINE ChosenPlace choose_place(const EmissionJob& job, vec3 entry, vec3 dir
   }
   // Once more, to the cell in which the sum reaches u of the whole.
   F left = u * total;
-  ChosenPlace place{0.0f, 0.0f};
+  ChosenPlace place{0.0f, 0.0f, 0.0f};
   s = start;
   for (B active = total > 0.0f; any(active); active = both(active, s.t < length)) {
     const StretchCell cell = cell_of(majorants, emission, sigma, s, length);
@@ -66,6 +67,7 @@ HWY_INLINE ChosenPlace choose_place(const EmissionJob& job, vec3 entry, vec3 dir
     const B reached = both(both(active, left <= here), here > 0.0f);
     place.t = select(reached, min(s.t + left / max(cell.weight, F(1e-30f)), cell.exit), place.t);
     place.density = select(reached, cell.weight / total, place.density);
+    place.majorant = select(reached, cell.majorant, place.majorant);
     left = left - here;
     active = both(active, negate(reached));
     advance(s, cell, both(active, cell.exit < length));
@@ -89,7 +91,8 @@ void place_lanes(const EmissionJob& job, const PathColumns& paths, const TrackCo
     const F u = select(is_first, gather(paths.points[placement_point], path), uniform_from_bits(words.x));
 
     // Lanes beyond the last follow the first stretch.
-    const I stretch = select(exists, lane_index() + I(static_cast<std::int32_t>(i)), I(static_cast<std::int32_t>(first)));
+    const I stretch =
+        select(exists, lane_index() + I(static_cast<std::int32_t>(i)), I(static_cast<std::int32_t>(first)));
     const vec3 entry = gather3(stretches.entry, stretch), direction = gather3(stretches.direction, stretch);
     const ChosenPlace place = choose_place(job, entry, direction, gather(stretches.length, stretch), u);
     const B found = both(exists, place.density > 0.0f);
@@ -102,7 +105,8 @@ void place_lanes(const EmissionJob& job, const PathColumns& paths, const TrackCo
       mean_rescale =
           (gather(paths.rescale[0], path) + gather(paths.rescale[1], path) + gather(paths.rescale[2], path)) *
           F(1.0f / 3);
-    const F weight = d / (max(place.density, F(1e-30f)) * mean_rescale);
+    const F weight =
+        d * emission_along_flights(place.majorant, job.thin) / (max(place.density, F(1e-30f)) * mean_rescale);
     const F factors[3] = {factor.x, factor.y, factor.z};
     F carried[3], largest = 0.0f;
     for (int c = 0; c < 3; ++c) {

@@ -10,8 +10,6 @@ HWY_BEFORE_NAMESPACE();
 namespace brume {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE F row_times(const float* row, vec3 v) { return fma(row[0], v.x, fma(row[1], v.y, F(row[2]) * v.z)); }
-
 // Adds the stretches of rays within a box to the tasks that begin at `out`; returns how many. `ordinal` numbers the
 // media that a ray may cross, so that each has random numbers of its own.
 std::uint32_t clip_lanes(const BoxFrame& box, const RayColumns& rays, std::uint32_t count, std::uint32_t ordinal,
@@ -22,8 +20,7 @@ std::uint32_t clip_lanes(const BoxFrame& box, const RayColumns& rays, std::uint3
     const F t_max = load_lanes(rays.t_max + i);
     const I index = lane_index() + I(static_cast<std::int32_t>(i));
     const vec3 o = load3(rays.origin, i), d = load3(rays.direction, i);
-    const vec3 origin(row_times(box.matrix[0], o) + box.matrix[0][3], row_times(box.matrix[1], o) + box.matrix[1][3],
-                      row_times(box.matrix[2], o) + box.matrix[2][3]);
+    const vec3 origin = rows_times(box.matrix, o);
     const vec3 direction(row_times(box.matrix[0], d), row_times(box.matrix[1], d), row_times(box.matrix[2], d));
     const BoxSpan span = box_span(origin, direction, lo, hi, F(0.0f), t_max);
     const B crosses = both(span.t_length > 0.0f, index < I(static_cast<std::int32_t>(count)));

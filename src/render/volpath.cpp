@@ -95,10 +95,15 @@ void VolpathIntegrator::make_jobs() {
     for (int c = 0; c < 3; ++c) {
       job.sigma_t[c] = medium.sigma_t[c];
       job.sigma_s[c] = medium.sigma_s[c];
-      job.emission[c] = has_grid ? 0 : medium.emission[c];
+      job.emission[c] = medium.emission[c];
     }
     std::copy(medium.phase_prepared.begin(), medium.phase_prepared.end(), job.phase_numbers);
     job.grid = media_.grid(job.medium);
+    if (medium.emission_factor >= 0) {
+      emission_jobs_.push_back(emission_job(job.medium));
+      job.emission_field = emission_jobs_.back().field;
+      job.emission_thin = emission_jobs_.back().thin;
+    }
     if (places) {
       // Through a homogeneous medium all light of points is placed; in a grid, whose density is known only where it is
       // looked up, that near them.
@@ -113,7 +118,6 @@ void VolpathIntegrator::make_jobs() {
       if (places && !has_grid && other_lights_.chance[k] > 0)
         job.density_scale = all_lights_.chance[k] / other_lights_.chance[k];
     jobs_.push_back(job);
-    if (medium.emission_factor >= 0) emission_jobs_.push_back(emission_job(job.medium));
   }
 }
 
@@ -122,7 +126,9 @@ EmissionJob VolpathIntegrator::emission_job(std::int32_t index) const {
   EmissionJob job;
   job.medium = index;
   job.grid = media_.grid(index);
-  job.cells = scene_.emission_factors[static_cast<std::size_t>(medium.emission_factor)].cells.data();
+  const auto& factor = scene_.emission_factors[static_cast<std::size_t>(medium.emission_factor)];
+  job.cells = factor.cells.data();
+  job.thin = factor.thin;
   job.field = emission_field(scene_, medium);
   std::copy_n(medium.emission.value.begin(), channel_count, job.emission);
   job.is_chromatic = media_.is_chromatic();

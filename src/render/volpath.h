@@ -5,9 +5,9 @@
 // room for a new one, so that the loops stay full.
 //
 // Light is gathered by shadow rays to one light a scattering, chosen in proportion to power, and by paths that meet a
-// light, with the balance heuristic of multiple importance sampling. What grids emit is gathered along flights
-// (emission_placement.h), what homogeneous media emit where paths collide. A constant infinite light is left to paths alone:
-// they find it with less noise than shadow rays do. Light of points in media is gathered along flights as well
+// light, with the balance heuristic of multiple importance sampling. What thin grids emit is gathered along
+// flights (emission_placement.h), what other media emit where paths collide. A constant infinite light is left to paths
+// alone: they find it with less noise than shadow rays do. Light of points in media is gathered along flights as well
 // (light_placement.h), which are aimed at the points (aim.h).
 #pragma once
 

@@ -17,7 +17,8 @@ bool has_emission(ParameterList& p) {
 // What cannot be with Le is an error where it is asked for.
 void exclude_emission(ParameterList& p, bool has_le, std::string_view what) {
   if (has_le)
-    p.error(p.place(), fmt::format("{} emits by its {} and takes no \"Le\"; \"float Lescale\" makes it brighter", p.owner(), what));
+    p.error(p.place(), fmt::format("{} emits by its {} and takes no \"Le\"; \"float Lescale\" makes it brighter",
+                                   p.owner(), what));
 }
 
 // Whether the medium has temperatures.

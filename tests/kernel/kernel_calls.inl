@@ -111,6 +111,10 @@ inline void call_emission_factor(const F* in, F* out, const TestGrid& g) {
   out[2] = factor.z;
 }
 
+inline void call_emission_along_flights(const F* in, F* out, const TestGrid&) {
+  out[0] = emission_along_flights(in[0], 0.6f);
+}
+
 #define PHASE(name)                                                             \
   inline void call_##name##_eval(const F* in, F* out, const TestGrid&) {        \
     out[0] = name##_eval(in[0], vec4(in[1], in[2], in[3], in[4]));              \
@@ -145,7 +149,7 @@ constexpr KernelCall kernel_calls[] = {
     CALL(cell_mean_linear, 7, 1), CALL(sobol_pair, 6, 2),
     CALL(atan_turns, 1, 1),       CALL(random_words, 4, 4),
     CALL(majorant_walk, 6, 24),   CALL(grid_stochastic, 5, 1),
-    CALL(emission_factor, 3, 3),
+    CALL(emission_factor, 3, 3),  CALL(emission_along_flights, 1, 1),
 #include "kernel/phase_list.inl"
 };
 #undef PHASE

@@ -113,6 +113,7 @@ std::map<std::string, Agreement, std::less<>> agreements() {
   all["grid_linear"] = {2, 3e-7, range(-7, 23.5f)};
   // Neighbouring colours of the table have no relation here; black bodies' are within a hundredth of each other.
   all["emission_factor"] = {2, 2e-3, range(-7, 23.5f)};
+  all["emission_along_flights"] = {4, 0, range(0, 90)};
   all["cell_mean_linear"] = {2, 3e-7,
                              [](int n, int a) { return a < 3 ? uniform(n, a, 0, 16) : uniform(n, a, 0, 0.5f); }};
   for (const PhaseEntry& entry : phase_functions()) {

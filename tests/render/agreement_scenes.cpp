@@ -196,7 +196,8 @@ void add_fire(std::vector<AgreementScene>& all) {
   s.media[0].linear_interpolation = false;
   s.integrator.max_depth = 4;
   all.push_back({"thick_fire", s});
-  s = view_of({fire(4, 2, 1), coloured(smoke("a", 0, 0), red, blue)}, {free_volume("fire"), free_volume("a"), ground()});
+  s = view_of({fire(4, 2, 1), coloured(smoke("a", 0, 0), red, blue)},
+              {free_volume("fire"), free_volume("a"), ground()});
   s.media[1].emission = Spectrum{{0.1f, 0.2f, 0.4f}};
   s.integrator.max_depth = 3;
   all.push_back({"fire_in_smoke", s});
