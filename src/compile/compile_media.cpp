@@ -130,6 +130,8 @@ Compiler::LoadedGrid Compiler::density_grid(const MediumDescription& medium) {
     if (file) return read_volume(file->filename, file->grid, storage);
     if (const auto* made = std::get_if<ProceduralMedium>(&medium.kind))
       return procedural_density(made->procedural, storage, threads_);
+    if (const auto* noise = std::get_if<CloudMedium>(&medium.kind))
+      return make_noise_cloud(noise->cloud, storage, threads_);
     const auto& uniform = std::get<UniformGridMedium>(medium.kind);
     return make_uniform_grid(uniform, uniform.density, storage);
   });
@@ -138,7 +140,7 @@ Compiler::LoadedGrid Compiler::density_grid(const MediumDescription& medium) {
 // A grid of temperatures that was not asked for by name may be missing.
 Compiler::LoadedGrid Compiler::temperature_grid(const MediumDescription& medium) {
   const auto* file = std::get_if<FileMedium>(&medium.kind);
-  const std::string key = "temperature " + grid_key(medium, file ? file->temperature_grid : "");
+  const std::string key = fmt::format("temperature {}", grid_key(medium, file ? file->temperature_grid : ""));
   return loaded_grid(medium, key, [&]() -> std::optional<VolumeGrid> {
     const Storage storage = storage_of(medium);
     if (file)
@@ -154,7 +156,7 @@ Compiler::LoadedGrid Compiler::temperature_grid(const MediumDescription& medium)
 Compiler::LoadedGrid Compiler::strength_grid(const MediumDescription& medium) {
   const auto* uniform = std::get_if<UniformGridMedium>(&medium.kind);
   if (!uniform || uniform->strength.empty()) return {-1, {}};
-  return loaded_grid(medium, "strength " + grid_key(medium, ""), [&]() -> std::optional<VolumeGrid> {
+  return loaded_grid(medium, fmt::format("strength {}", grid_key(medium, "")), [&]() -> std::optional<VolumeGrid> {
     return make_uniform_grid(*uniform, uniform->strength, storage_of(medium));
   });
 }

@@ -105,6 +105,11 @@ struct TemperatureScale {
   bool operator==(const TemperatureScale&) const = default;
 };
 
+// Type "cloud".
+struct CloudMedium {
+  NoiseCloud cloud;
+};
+
 struct MediumDescription {
   std::string name;
   Transform world_from_medium;
@@ -117,7 +122,7 @@ struct MediumDescription {
   std::vector<float> phase_parameters = {0};    // in the order of the phase function's table
   bool linear_interpolation = true;
   int storage_bits = 16;  // 8, 16 or 32
-  std::variant<HomogeneousMedium, UniformGridMedium, FileMedium, ProceduralMedium> kind;
+  std::variant<HomogeneousMedium, UniformGridMedium, FileMedium, ProceduralMedium, CloudMedium> kind;
   Location location;
 };
 

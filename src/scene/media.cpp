@@ -86,19 +86,24 @@ void read_grid_settings(ParameterList& p, MediumDescription& medium) {
   medium.storage_bits = static_cast<int>(bits);
 }
 
+// The box from p0 to p1, in whichever order they are.
+void read_box(ParameterList& p, Vector3& lo, Vector3& hi) {
+  const Vector3 p0 = p.triple(ParameterType::point3, "p0", {0, 0, 0});
+  const Vector3 p1 = p.triple(ParameterType::point3, "p1", {1, 1, 1});
+  for (int axis = 0; axis < 3; ++axis) {
+    lo[axis] = std::min(p0[axis], p1[axis]);
+    hi[axis] = std::max(p0[axis], p1[axis]);
+    if (p0[axis] == p1[axis])
+      p.error(p.place(), fmt::format("the box of {} is flat: p0 and p1 have the same {}", p.owner(), "xyz"[axis]));
+  }
+}
+
 UniformGridMedium read_uniform_grid(ParameterList& p) {
   UniformGridMedium grid;
   const char* const names[] = {"nx", "ny", "nz"};
   for (std::size_t axis = 0; axis < 3; ++axis)
     grid.resolution[axis] = static_cast<int>(p.integer(names[axis], 1, 1, max_voxels_along_axis));
-  const Vector3 p0 = p.triple(ParameterType::point3, "p0", {0, 0, 0});
-  const Vector3 p1 = p.triple(ParameterType::point3, "p1", {1, 1, 1});
-  for (int axis = 0; axis < 3; ++axis) {
-    grid.p0[axis] = std::min(p0[axis], p1[axis]);
-    grid.p1[axis] = std::max(p0[axis], p1[axis]);
-    if (p0[axis] == p1[axis])
-      p.error(p.place(), fmt::format("the box of {} is flat: p0 and p1 have the same {}", p.owner(), "xyz"[axis]));
-  }
+  read_box(p, grid.p0, grid.p1);
   p.require(ParameterType::float_, "density");
   grid.density = read_cells(p, "density", grid.resolution, Range::at_least(0));
   return grid;
@@ -120,6 +125,24 @@ ProceduralMedium read_procedural(ParameterList& p) {
   return {procedural};
 }
 
+CloudMedium read_cloud(ParameterList& p) {
+  NoiseCloud cloud;
+  cloud.density = p.number("density", cloud.density, Range::at_least(0));
+  cloud.wispiness = p.number("wispiness", cloud.wispiness, Range::from_to(0, 1000));
+  cloud.frequency = p.number("frequency", cloud.frequency, Range::from_to(0, 1000));
+  cloud.size = static_cast<int>(p.integer("size", cloud.size, min_procedural_size, max_procedural_size));
+  read_box(p, cloud.p0, cloud.p1);
+  // Further out float knows no fraction of a billow.
+  constexpr double most_billows = 1e5;
+  for (int axis = 0; axis < 3; ++axis)
+    if (const double far = std::max(std::abs(cloud.p0[axis]), std::abs(cloud.p1[axis]));
+        far * cloud.frequency > most_billows)
+      p.error(p.place(), fmt::format("the box of {} reaches out to {} {}, {} billows from the origin; at most {} are "
+                                     "possible: place the cloud by transformations",
+                                     p.owner(), "xyz"[axis], far, far * cloud.frequency, most_billows));
+  return {cloud};
+}
+
 }  // namespace
 
 void Reader::make_named_medium() {
@@ -134,9 +157,10 @@ void Reader::make_named_medium() {
     messages_.warning(directive_.place, "the medium type \"heterogeneous\" is now called \"uniformgrid\"");
     type = "uniformgrid";
   }
-  const std::vector<std::string_view> types = {"homogeneous", "uniformgrid", "nanovdb", "vdb", "vol", "procedural"};
+  const std::vector<std::string_view> types = {"homogeneous", "uniformgrid", "nanovdb", "vdb", "vol", "procedural",
+                                               "cloud"};
   if (std::find(types.begin(), types.end(), type) == types.end())
-    unknown_type(p.place_of(ParameterType::string, "type"), "medium type", type, types, {"rgbgrid", "cloud"});
+    unknown_type(p.place_of(ParameterType::string, "type"), "medium type", type, types, {"rgbgrid"});
 
   MediumDescription medium;
   medium.name = name;
@@ -151,6 +175,8 @@ void Reader::make_named_medium() {
     medium.kind = read_uniform_grid(p);
   } else if (type == "procedural") {
     medium.kind = read_procedural(p);
+  } else if (type == "cloud") {
+    medium.kind = read_cloud(p);
   } else {
     p.require(ParameterType::string, "filename");
     medium.kind = FileMedium{resolve(p.string("filename", "")), p.string("gridname", "")};

@@ -188,6 +188,12 @@ class Writer {
       if (const std::string_view name = p.table().parameters[i].name; !name.empty())
         line("  \"float {}\" {}", name, p.values[i]);
   }
+  void medium_kind(const CloudMedium& medium) {
+    const NoiseCloud& c = medium.cloud;
+    line("  \"string type\" \"cloud\" \"integer size\" {}", c.size);
+    line("  \"float density\" {} \"float wispiness\" {} \"float frequency\" {}", c.density, c.wispiness, c.frequency);
+    line("  \"point3 p0\" [{}] \"point3 p1\" [{}]", numbers(c.p0), numbers(c.p1));
+  }
 
   void light(const LightDescription& l) {
     line("");

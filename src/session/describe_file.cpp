@@ -42,6 +42,9 @@ struct DescribeMediumKind {
   std::string operator()(const ProceduralMedium& m) const {
     return fmt::format("procedural {} of {} voxels", m.procedural.table().name, m.procedural.size);
   }
+  std::string operator()(const CloudMedium& m) const {
+    return fmt::format("noise cloud of {} voxels", m.cloud.size);
+  }
 };
 
 struct DescribeLight {

@@ -28,6 +28,9 @@ VolumeGrid make_fog(const Procedural& procedural, Storage storage, int threads);
 VolumeGrid make_fire(const Procedural& procedural, Storage storage, int threads);   // box +-(0.5, 1, 0.5)
 VolumeGrid make_fire_temperature(const Procedural& procedural, Storage storage, int threads);
 
+// pbrt's noise cloud, in voxels that fill its box exactly.
+VolumeGrid make_noise_cloud(const NoiseCloud& cloud, Storage storage, int threads);
+
 // A ball of noise in the box [-1, 1]^3 of medium space, in size^3 voxels, a tenth of which hold something; densities in
 // [0, 1]. Keeps all values as floats while it is made.
 VolumeGrid noise_ball(int size, Storage storage, int threads);

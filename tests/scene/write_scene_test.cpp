@@ -45,6 +45,9 @@ void expect_equal(const MediumDescription& a, const MediumDescription& b) {
   if (const auto* made = std::get_if<ProceduralMedium>(&a.kind)) {
     EXPECT_EQ(made->procedural, std::get<ProceduralMedium>(b.kind).procedural);
   }
+  if (const auto* noise = std::get_if<CloudMedium>(&a.kind)) {
+    EXPECT_EQ(noise->cloud, std::get<CloudMedium>(b.kind).cloud);
+  }
 }
 
 void expect_equal(const ShapeDescription& a, const ShapeDescription& b) {
@@ -201,6 +204,9 @@ TEST(WriteScene, EveryProceduralMediumReadsBackTheSame) {
     scene.media.back().temperatures = TemperatureScale{100, 1.5};
     scene.media.back().emission = constant_spectrum(0.7f);
   }
+  scene.media.push_back({});
+  scene.media.back().name = "noise";
+  scene.media.back().kind = CloudMedium{{2, 0.5, 3, {-1, 0, 0}, {1, 0.5, 2}, 40}};
   expect_round_trip(scene);
 }
 
