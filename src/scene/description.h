@@ -84,6 +84,15 @@ struct UniformGridMedium {
   std::vector<float> strength{};     // what emission is multiplied by; empty: 1 everywhere
 };
 
+// Type "rgbgrid": coefficients of each cell and channel, times `sigma_a` and `sigma_s` of the medium; `emission` of the
+// medium multiplies what is emitted.
+struct RgbGridMedium {
+  std::array<int, 3> resolution{1, 1, 1};
+  Vector3 p0{0, 0, 0}, p1{1, 1, 1};
+  std::vector<float> sigma_a, sigma_s;  // three a cell, x fastest; empty: 1 everywhere
+  std::vector<float> emission;          // Le, three a cell; empty: none
+};
+
 // Type "vdb", "nanovdb" or "vol": a grid from a file (its suffix says of which kind), read when the scene is compiled.
 struct FileMedium {
   std::string filename;  // resolved
@@ -122,7 +131,7 @@ struct MediumDescription {
   std::vector<float> phase_parameters = {0};    // in the order of the phase function's table
   bool linear_interpolation = true;
   int storage_bits = 16;  // 8, 16 or 32
-  std::variant<HomogeneousMedium, UniformGridMedium, FileMedium, ProceduralMedium, CloudMedium> kind;
+  std::variant<HomogeneousMedium, UniformGridMedium, FileMedium, ProceduralMedium, CloudMedium, RgbGridMedium> kind;
   Location location;
 };
 

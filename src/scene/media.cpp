@@ -25,15 +25,19 @@ Spectrum scaled(ParameterList& p, double factor, const Spectrum& colour, std::st
 }
 
 std::vector<float> read_cells(ParameterList& p, std::string_view name, const std::array<int, 3>& resolution,
-                              const Range& range) {
-  Parameter* parameter = p.find(ParameterType::float_, name);
+                              const Range& range, ParameterType type) {
+  Parameter* parameter = p.find(type, name);
   if (!parameter) return {};
   const std::vector<double>& values = parameter->numbers;
   const std::int64_t cells = std::int64_t{resolution[0]} * resolution[1] * resolution[2];
-  if (static_cast<std::int64_t>(values.size()) != cells) {
+  const std::size_t a_cell = type == ParameterType::rgb ? 3 : 1;
+  // Compared by division: the number of cells may be more than can be counted three times over.
+  if (values.size() % a_cell != 0 || static_cast<std::int64_t>(values.size() / a_cell) != cells) {
     p.value_error(*parameter, 0,
-                  fmt::format("must have nx ny nz = {} x {} x {} = {} values, found {}", resolution[0], resolution[1],
-                              resolution[2], cells, values.size()));
+                  fmt::format("must have nx ny nz = {} x {} x {} = {} {}, found {}", resolution[0], resolution[1],
+                              resolution[2], cells, a_cell == 3 ? "colours" : "values",
+                              values.size() % a_cell == 0 ? fmt::format("{}", values.size() / a_cell)
+                                                          : fmt::format("{} numbers", values.size())));
     return {};
   }
   const auto wrong = std::find_if(values.begin(), values.end(), [&](double v) { return !range.holds(v); });
@@ -98,11 +102,17 @@ void read_box(ParameterList& p, Vector3& lo, Vector3& hi) {
   }
 }
 
-UniformGridMedium read_uniform_grid(ParameterList& p) {
-  UniformGridMedium grid;
+std::array<int, 3> read_resolution(ParameterList& p) {
+  std::array<int, 3> resolution{};
   const char* const names[] = {"nx", "ny", "nz"};
   for (std::size_t axis = 0; axis < 3; ++axis)
-    grid.resolution[axis] = static_cast<int>(p.integer(names[axis], 1, 1, max_voxels_along_axis));
+    resolution[axis] = static_cast<int>(p.integer(names[axis], 1, 1, max_voxels_along_axis));
+  return resolution;
+}
+
+UniformGridMedium read_uniform_grid(ParameterList& p) {
+  UniformGridMedium grid;
+  grid.resolution = read_resolution(p);
   read_box(p, grid.p0, grid.p1);
   p.require(ParameterType::float_, "density");
   grid.density = read_cells(p, "density", grid.resolution, Range::at_least(0));
@@ -123,6 +133,27 @@ ProceduralMedium read_procedural(ParameterList& p) {
         p.number(parameter.name, static_cast<double>(parameter.fallback), Range::from_to(parameter.lo, parameter.hi)));
   }
   return {procedural};
+}
+
+// With the medium's own coefficients, which multiply those of the cells.
+RgbGridMedium read_rgb_grid(ParameterList& p, MediumDescription& medium) {
+  RgbGridMedium grid;
+  grid.resolution = read_resolution(p);
+  read_box(p, grid.p0, grid.p1);
+  const auto read = [&](std::string_view name) {
+    return read_cells(p, name, grid.resolution, Range::at_least(0), ParameterType::rgb);
+  };
+  const bool has_sigma_a = p.has(ParameterType::rgb, "sigma_a");
+  if (!has_sigma_a && !p.has(ParameterType::rgb, "sigma_s"))
+    p.error(p.place(), fmt::format("{} needs \"rgb sigma_a\" or \"rgb sigma_s\", three numbers a cell", p.owner()));
+  if (!has_sigma_a && p.has(ParameterType::rgb, "Le"))
+    p.error(p.place(), fmt::format("{} emits, sigma_a Le a unit of length: it needs \"rgb sigma_a\"", p.owner()));
+  grid.sigma_a = read("sigma_a");
+  grid.sigma_s = read("sigma_s");
+  grid.emission = read("Le");
+  medium.sigma_a = medium.sigma_s = scaled(p, p.number("scale", 1, Range::at_least(0)), constant_spectrum(1), "scale");
+  medium.emission = scaled(p, p.number("Lescale", 1, Range::at_least(0)), constant_spectrum(1), "Lescale");
+  return grid;
 }
 
 CloudMedium read_cloud(ParameterList& p) {
@@ -157,16 +188,16 @@ void Reader::make_named_medium() {
     messages_.warning(directive_.place, "the medium type \"heterogeneous\" is now called \"uniformgrid\"");
     type = "uniformgrid";
   }
-  const std::vector<std::string_view> types = {"homogeneous", "uniformgrid", "nanovdb", "vdb", "vol", "procedural",
-                                               "cloud"};
+  const std::vector<std::string_view> types = {"homogeneous", "uniformgrid", "nanovdb", "vdb",
+                                               "vol",         "procedural",  "cloud",   "rgbgrid"};
   if (std::find(types.begin(), types.end(), type) == types.end())
-    unknown_type(p.place_of(ParameterType::string, "type"), "medium type", type, types, {"rgbgrid"});
+    unknown_type(p.place_of(ParameterType::string, "type"), "medium type", type, types, {});
 
   MediumDescription medium;
   medium.name = name;
   medium.location = location(directive_.place);
   medium.world_from_medium = usable_ctm("the medium");
-  read_coefficients(p, medium);
+  if (type != "rgbgrid") read_coefficients(p, medium);
   read_phase(p, medium);
   if (type != "homogeneous") read_grid_settings(p, medium);
   if (type == "homogeneous") {
@@ -175,13 +206,15 @@ void Reader::make_named_medium() {
     medium.kind = read_uniform_grid(p);
   } else if (type == "procedural") {
     medium.kind = read_procedural(p);
+  } else if (type == "rgbgrid") {
+    medium.kind = read_rgb_grid(p, medium);
   } else if (type == "cloud") {
     medium.kind = read_cloud(p);
   } else {
     p.require(ParameterType::string, "filename");
     medium.kind = FileMedium{resolve(p.string("filename", "")), p.string("gridname", "")};
   }
-  read_emission(p, medium);
+  if (type != "rgbgrid") read_emission(p, medium);
   p.finish();
 
   if (const auto [known, is_new] = media_by_name_.try_emplace(name, scene_.media.size()); is_new)

@@ -46,6 +46,7 @@ bool find_temperatures(ParameterList& p, bool has_le, const ProceduralMedium& me
 
 bool find_temperatures(ParameterList&, bool, const HomogeneousMedium&) { return false; }
 bool find_temperatures(ParameterList&, bool, const CloudMedium&) { return false; }
+bool find_temperatures(ParameterList&, bool, const RgbGridMedium&) { return false; }
 
 TemperatureScale read_temperature_scale(ParameterList& p) {
   const double cutoff = p.number("temperaturecutoff", 0);

@@ -140,13 +140,11 @@ class Writer {
     if (moved) begin_moved(m.world_from_medium);
     line("MakeNamedMedium {}", quoted(m.name));
     std::visit([&](const auto& kind) { medium_kind(kind); }, m.kind);
-    line("  # per world unit, at density 1");
-    colour("sigma_a", m.sigma_a);
-    colour("sigma_s", m.sigma_s);
-    if (m.temperatures)
-      temperatures(*m.temperatures, m.emission[0]);
-    else if (!is_zero(m.emission))
-      colour("Le", m.emission);
+    if (std::holds_alternative<RgbGridMedium>(m.kind)) {
+      line("  \"float scale\" {} \"float Lescale\" {}", m.sigma_a[0], m.emission[0]);
+    } else {
+      coefficients(m);
+    }
     const PhaseFunction& phase = phase_functions()[static_cast<std::size_t>(m.phase)].table;
     line("  \"string phase\" \"{}\"", phase.name);
     for (std::size_t i = 0; i < m.phase_parameters.size(); ++i)
@@ -155,6 +153,16 @@ class Writer {
       line("  \"string interpolation\" \"{}\" \"integer storage\" {}", m.linear_interpolation ? "linear" : "nearest",
            m.storage_bits);
     if (moved) end_block();
+  }
+
+  void coefficients(const MediumDescription& m) {
+    line("  # per world unit, at density 1");
+    colour("sigma_a", m.sigma_a);
+    colour("sigma_s", m.sigma_s);
+    if (m.temperatures)
+      temperatures(*m.temperatures, m.emission[0]);
+    else if (!is_zero(m.emission))
+      colour("Le", m.emission);
   }
 
   void temperatures(const TemperatureScale& t, float strength) {
@@ -187,6 +195,15 @@ class Writer {
     for (std::size_t i = 0; i < p.values.size(); ++i)
       if (const std::string_view name = p.table().parameters[i].name; !name.empty())
         line("  \"float {}\" {}", name, p.values[i]);
+  }
+  void medium_kind(const RgbGridMedium& grid) {
+    line("  \"string type\" \"rgbgrid\"");
+    line("  \"integer nx\" {} \"integer ny\" {} \"integer nz\" {}", grid.resolution[0], grid.resolution[1],
+         grid.resolution[2]);
+    line("  \"point3 p0\" [{}] \"point3 p1\" [{}]", numbers(grid.p0), numbers(grid.p1));
+    if (!grid.sigma_a.empty()) list("\"rgb sigma_a\"", grid.sigma_a);
+    if (!grid.sigma_s.empty()) list("\"rgb sigma_s\"", grid.sigma_s);
+    if (!grid.emission.empty()) list("\"rgb Le\"", grid.emission);
   }
   void medium_kind(const CloudMedium& medium) {
     const NoiseCloud& c = medium.cloud;

@@ -41,18 +41,17 @@ VolumeGrid make_noise_cloud(const NoiseCloud& cloud, Storage storage, int thread
   Vector3 voxel;
   for (int axis = 0; axis < 3; ++axis) voxel[axis] = size[axis] / lattice.voxels[static_cast<std::size_t>(axis)];
   const Transform medium_from_index = translate(cloud.p0) * scale(voxel);
-  VolumeGrid grid =
-      fill_bricks("density", lattice, storage, threads, [&](std::array<int, 3> brick, auto& values) {
-        bool any = false;
-        for (int i = 0; i < brick_voxels; ++i) {
-          const Vector3 middle{8 * brick[0] + (i & 7) + 0.5, 8 * brick[1] + (i >> 3 & 7) + 0.5,
-                               8 * brick[2] + (i >> 6) + 0.5};
-          const float density = density_at(cloud, medium_from_index.point(middle));
-          values[static_cast<std::size_t>(i)] = density;
-          any = any || density != 0;
-        }
-        return any;
-      });
+  VolumeGrid grid = fill_bricks("density", lattice, storage, threads, [&](std::array<int, 3> brick, auto& values) {
+    bool any = false;
+    for (int i = 0; i < brick_voxels; ++i) {
+      const Vector3 middle{8 * brick[0] + (i & 7) + 0.5, 8 * brick[1] + (i >> 3 & 7) + 0.5,
+                           8 * brick[2] + (i >> 6) + 0.5};
+      const float density = density_at(cloud, medium_from_index.point(middle));
+      values[static_cast<std::size_t>(i)] = density;
+      any = any || density != 0;
+    }
+    return any;
+  });
   grid.medium_from_index = medium_from_index;
   grid.support = Support::cut;
   return grid;

@@ -203,6 +203,24 @@ void add_fire(std::vector<AgreementScene>& all) {
   all.push_back({"fire_in_smoke", s});
 }
 
+// Coefficients and emission that vary in each channel; free, and bounded by glass within a fog that it displaces.
+void add_rgb_grids(std::vector<AgreementScene>& all) {
+  MediumDescription coloured = homogeneous_medium("coloured", 1, 1);
+  const std::array<int, 3> cells{2, 3, 4};
+  RgbGridMedium grid{cells, {-1, -1, -1}, {1, 1, 1}, noise({3 * 2, 3, 4}, 3), noise({3 * 2, 3, 4}, 4), {}};
+  for (float& s : grid.sigma_s) s *= 4;
+  for (std::size_t i = 0; i < grid.sigma_a.size(); ++i) grid.emission.push_back(i % 5 == 0 ? 0.01f : 0);
+  coloured.kind = grid;
+  all.push_back({"rgb_grid", view_of({coloured}, {free_volume("coloured")})});
+  SceneDescription s =
+      view_of({coloured, homogeneous_medium("fog", 0.05f, 0.2f)},
+              {with_material(sphere_shape({0, 0, 0}, 0.9, "coloured", "fog"), DielectricMaterial{1.3f}),
+               sphere_shape({0, 0, 0}, 2, "fog"), ground()});
+  s.lights = {sky(1)};
+  s.integrator.max_depth = 8;
+  all.push_back({"rgb_grid_in_glass", s});
+}
+
 void add_colours(std::vector<AgreementScene>& all) {
   const auto grid = smoke("a", 0, 0), other = turned(smoke("b", 0, 0, 7), 40);
   const auto ball = homogeneous_medium("ball", 0, 0);
@@ -294,6 +312,7 @@ std::vector<AgreementScene> agreement_scenes() {
   add_phase_functions(all);
   add_sets_of_media(all);
   add_colours(all);
+  add_rgb_grids(all);
   add_surfaces(all);
   add_depths(all);
   return all;

@@ -165,6 +165,28 @@ void add_black_bodies(std::vector<Case>& all) {
                  expected([](double sigma) { return 2 * std::exp(-sigma) * (1 - std::exp(-sigma)); }), dimmer});
 }
 
+// A cell that absorbs and emits, each channel in its own way, before a sky of radiance 1.
+void add_rgb_cell(std::vector<Case>& all) {
+  const std::array<float, 3> sigma_a{0.2f, 0.5f, 0.8f}, le{0.01f, 0.002f, 0.005f};
+  SceneDescription s = needle_scene({0.1, 0.2, -5});
+  s.lights = {sky(1)};
+  s.media = {homogeneous_medium("colours", 2, 2)};
+  s.media[0].linear_interpolation = false;
+  s.media[0].emission = constant_spectrum(3);
+  s.media[0].kind = RgbGridMedium{{1, 1, 1}, {-1, -1, 0},           {1, 1, 1}, {sigma_a.begin(), sigma_a.end()},
+                                  {0, 0, 0}, {le.begin(), le.end()}};
+  s.shapes = {free_volume("colours")};
+  std::vector<Expected> expected;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double passed = std::exp(-2 * static_cast<double>(sigma_a[c]));
+    expected.push_back({passed + (1 - passed) * 3 * 106.856895 * static_cast<double>(le[c]), 1e-5});
+  }
+  all.push_back({"rgb_cell", s, expected, {"channels_exchanged", [](SceneDescription& scene) {
+                                             auto& grid = std::get<RgbGridMedium>(scene.media[0].kind);
+                                             std::swap(grid.sigma_a[0], grid.sigma_a[1]);
+                                           }}});
+}
+
 // Uniform surroundings and no absorption: radiance 1 everywhere, whatever stands there.
 void add_furnace(std::vector<Case>& all) {
   std::vector<float> density(6 * 5 * 4);
@@ -190,6 +212,7 @@ std::vector<Case> transport_cases() {
   add_single_scattering(all);
   add_absorption_and_emission(all);
   add_black_bodies(all);
+  add_rgb_cell(all);
   add_furnace(all);
   return all;
 }

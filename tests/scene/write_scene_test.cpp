@@ -45,6 +45,14 @@ void expect_equal(const MediumDescription& a, const MediumDescription& b) {
   if (const auto* made = std::get_if<ProceduralMedium>(&a.kind)) {
     EXPECT_EQ(made->procedural, std::get<ProceduralMedium>(b.kind).procedural);
   }
+  if (const auto* coloured = std::get_if<RgbGridMedium>(&a.kind)) {
+    const auto& other = std::get<RgbGridMedium>(b.kind);
+    EXPECT_EQ(coloured->resolution, other.resolution);
+    EXPECT_EQ(coloured->p1, other.p1);
+    EXPECT_EQ(coloured->sigma_a, other.sigma_a);
+    EXPECT_EQ(coloured->sigma_s, other.sigma_s);
+    EXPECT_EQ(coloured->emission, other.emission);
+  }
   if (const auto* noise = std::get_if<CloudMedium>(&a.kind)) {
     EXPECT_EQ(noise->cloud, std::get<CloudMedium>(b.kind).cloud);
   }
@@ -228,6 +236,10 @@ TEST(WriteScene, EveryWayToEmitReadsBackTheSame) {
   MediumDescription& hot = add("by temperature", grid);
   hot.temperatures = TemperatureScale{};
   hot.emission = constant_spectrum(2.5f);
+  MediumDescription& coloured =
+      add("coloured", RgbGridMedium{{2, 1, 1}, {0, 0, 0}, {1, 1, 1}, {1, 2, 3, 4, 5, 6}, {}, {0.5f, 0, 0, 1, 2, 3}});
+  coloured.emission = constant_spectrum(0.25f);
+  coloured.sigma_a = coloured.sigma_s = constant_spectrum(3);
   add("a file's", FileMedium{"/a.vdb", "", "temperature", false}).temperatures = TemperatureScale{};
   add("a file's by name", FileMedium{"/a.vdb", "density", "heat", true}).temperatures = TemperatureScale{0, 1000};
   add("a file's, not used", FileMedium{"/a.vdb", "", "", false}).emission = {};
