@@ -26,7 +26,7 @@ CompiledScene Compiler::run(std::vector<Diagnostic>& warnings) {
   add_integrator();
   add_lights();
   for (const ShapeDescription& shape : scene_.shapes) add_shape(shape);
-  boxes_to_volumes();
+  boundaries_to_volumes();
   add_light_choice();
   if (!errors_.empty()) throw InputError(std::move(errors_));
   warnings.insert(warnings.end(), warnings_.begin(), warnings_.end());

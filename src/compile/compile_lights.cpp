@@ -248,7 +248,7 @@ double Compiler::scene_radius() const {
   };
   for (const CompiledQuadric& q : compiled_.quadrics) include(q.world_from_object, {-1, -1, -1}, {1, 1, 1});
   for (const CompiledVolume& v : compiled_.volumes)
-    include(inverse(v.box_from_world), to_double(v.lo), to_double(v.hi));
+    include(inverse(v.region.local_from_world), to_double(v.region.lo), to_double(v.region.hi));
   return box.empty() ? 1 : 0.5 * length(box.hi - box.lo);
 }
 

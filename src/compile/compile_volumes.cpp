@@ -1,7 +1,8 @@
-// Media in boxes, which rays meet by arithmetic alone: volumes placed without a shape, and closed boxes of triangles
-// that are nothing but the boundary of a medium.
+// Media in regions that rays meet by arithmetic alone: volumes placed without a shape, and the insides of spheres and
+// of closed boxes of triangles that are nothing but boundaries of media.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "compile/compiler.h"
@@ -110,25 +111,49 @@ std::optional<Transform> as_box(const CompiledScene& scene, const CompiledMesh& 
   return is_closed_box(triangles) ? world_from_unit : std::nullopt;
 }
 
-// The part of a grid's bounds that lies in a box, where that is a box along the grid's axes.
-std::optional<Box3> grid_in_box(const CompiledGrid& grid, const Transform& index_from_unit) {
-  const Box3 bounds_index{to_vector(grid.bounds_lo), to_vector(grid.bounds_hi)};
-  const Box3 in_unit = bounds(inverse(index_from_unit), bounds_index);
-  bool is_inside = true;
-  for (int axis = 0; axis < 3; ++axis)
-    is_inside = is_inside && in_unit.lo[axis] >= -1e-9 && in_unit.hi[axis] <= 1 + 1e-9;
-  if (is_inside) return bounds_index;
-  for (const auto& row : index_from_unit.m) {
-    int nonzero = 0;
-    for (std::size_t i = 0; i < 3; ++i) nonzero += std::abs(row[i]) > 1e-4;  // of a voxel
-    if (nonzero > 1) return std::nullopt;
+// The region that a shape bounds with its normals outwards, where it is a box or a sphere.
+std::optional<CompiledRegion> region_within(const CompiledScene& scene, const CompiledShape& shape) {
+  if (shape.kind == CompiledShape::Kind::quadric) {
+    const CompiledQuadric& q = scene.quadrics[shape.index];
+    if (q.kind != CompiledQuadric::Kind::sphere || q.flip_normal) return std::nullopt;
+    return CompiledRegion{CompiledRegion::Kind::ball, q.object_from_world};
   }
-  Box3 box = bounds(index_from_unit, {{0, 0, 0}, {1, 1, 1}});
-  for (int axis = 0; axis < 3; ++axis) {
-    box.lo[axis] = std::max(box.lo[axis], bounds_index.lo[axis]);
-    box.hi[axis] = std::min(box.hi[axis], bounds_index.hi[axis]);
+  const std::optional<Transform> world_from_unit = as_box(scene, scene.meshes[shape.index]);
+  if (!world_from_unit) return std::nullopt;
+  return CompiledRegion{CompiledRegion::Kind::box, inverse(*world_from_unit), {0, 0, 0}, {1, 1, 1}};
+}
+
+// The part of a medium's grid that lies in a region, where that is a box along the grid's axes; empty where it is none.
+std::optional<CompiledRegion> part_of_grid(const CompiledMedium& medium, const CompiledGrid& grid,
+                                           const CompiledRegion& region) {
+  const Transform index_from_local = medium.index_from_world * inverse(region.local_from_world);
+  Box3 box{to_vector(grid.bounds_lo), to_vector(grid.bounds_hi)};
+  const auto holds_all = [&] {
+    const Transform local_from_index = inverse(index_from_local);
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vector3 p = local_from_index.point(
+          {(corner & 1 ? box.hi : box.lo).x, (corner & 2 ? box.hi : box.lo).y, (corner & 4 ? box.hi : box.lo).z});
+      if (region.kind == CompiledRegion::Kind::ball ? !(dot(p, p) <= 1 + 1e-9)
+                                                    : !(p.x >= -1e-9 && p.x <= 1 + 1e-9 && p.y >= -1e-9 &&
+                                                        p.y <= 1 + 1e-9 && p.z >= -1e-9 && p.z <= 1 + 1e-9))
+        return false;
+    }
+    return true;
+  };
+  if (!holds_all()) {
+    if (region.kind == CompiledRegion::Kind::ball) return std::nullopt;
+    for (const auto& row : index_from_local.m) {
+      int nonzero = 0;
+      for (std::size_t i = 0; i < 3; ++i) nonzero += std::abs(row[i]) > 1e-4;  // of a voxel
+      if (nonzero > 1) return std::nullopt;
+    }
+    const Box3 cut = bounds(index_from_local, {{0, 0, 0}, {1, 1, 1}});
+    for (int axis = 0; axis < 3; ++axis) {
+      box.lo[axis] = std::max(box.lo[axis], cut.lo[axis]);
+      box.hi[axis] = std::min(box.hi[axis], cut.hi[axis]);
+    }
   }
-  return box;
+  return CompiledRegion{CompiledRegion::Kind::box, medium.index_from_world, to_float(box.lo), to_float(box.hi)};
 }
 
 }  // namespace
@@ -137,36 +162,104 @@ void Compiler::add_volume(std::int32_t medium) {
   const CompiledMedium& m = compiled_.media[static_cast<std::size_t>(medium)];
   if (m.grid < 0) return;
   const CompiledGrid& grid = compiled_.grids[static_cast<std::size_t>(m.grid)];
-  compiled_.volumes.push_back({medium, m.index_from_world, grid.bounds_lo, grid.bounds_hi});
+  compiled_.volumes.push_back(
+      {medium, {CompiledRegion::Kind::box, m.index_from_world, grid.bounds_lo, grid.bounds_hi}});
 }
 
-void Compiler::boxes_to_volumes() {
+namespace {
+
+// A shape that bounds media.
+struct Boundary {
+  CompiledBoundary media;
+  std::optional<CompiledRegion> region;  // where it is nothing else, and its inside is a region
+};
+
+// Which media are where, as far as arithmetic tells it: those that fill the insides of regions and are displaced at
+// most by one, if they fill one alone, and whose neighbours across all boundaries are such media too.
+class ArithmeticMedia {
+ public:
+  ArithmeticMedia(const CompiledScene& scene, const std::vector<Boundary>& boundaries)
+      : scene_(scene), boundaries_(boundaries), is_one_(scene.media.size(), true) {
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (std::size_t m = 0; m < is_one_.size(); ++m) {
+        if (!is_one_[m] || qualifies(static_cast<std::int32_t>(m))) continue;
+        is_one_[m] = false;
+        changed = true;
+      }
+    }
+  }
+
+  bool includes(std::int32_t medium) const { return medium == no_medium || is_one_[static_cast<std::size_t>(medium)]; }
+  bool includes(const Boundary& b) const { return b.region && includes(b.media.inside) && includes(b.media.outside); }
+  // The boundary that displaces the medium.
+  const Boundary* hole_in(std::int32_t medium) const {
+    const auto at = std::find_if(boundaries_.begin(), boundaries_.end(),
+                                 [&](const Boundary& b) { return b.media.outside == medium; });
+    return at == boundaries_.end() ? nullptr : &*at;
+  }
+  // The part of the medium's region in the boundary that is not empty for want of a grid.
+  std::optional<CompiledRegion> region_of(const Boundary& b) const {
+    const CompiledMedium& medium = scene_.media[static_cast<std::size_t>(b.media.inside)];
+    if (medium.grid < 0) return b.region;
+    return part_of_grid(medium, scene_.grids[static_cast<std::size_t>(medium.grid)], *b.region);
+  }
+
+ private:
+  bool qualifies(std::int32_t medium) const {
+    int inside = 0, outside = 0;
+    for (const Boundary& b : boundaries_) {
+      if (b.media.inside != medium && b.media.outside != medium) continue;
+      if (!includes(b) || (b.media.inside == medium && !region_of(b))) return false;
+      inside += b.media.inside == medium;
+      outside += b.media.outside == medium;
+    }
+    if (outside == 0) return true;
+    if (inside != 1 || outside != 1) return false;
+    // A camera in a hole that sticks out of the region would have the medium around all.
+    const Boundary& region = *std::find_if(boundaries_.begin(), boundaries_.end(),
+                                           [&](const Boundary& b) { return b.media.inside == medium; });
+    const Vector3 eye = scene_.camera.world_from_camera.point({});
+    return !hole_in(medium)->region->contains(eye) || region.region->contains(eye);
+  }
+
+  const CompiledScene& scene_;
+  const std::vector<Boundary>& boundaries_;
+  std::vector<bool> is_one_;  // by medium
+};
+
+}  // namespace
+
+void Compiler::boundaries_to_volumes() {
   // More of them could overlap than a path can follow; boundaries say where.
   if (compiled_.boundaries.size() > max_active_media) return;
-  // A medium that some shape displaces is counted along rays.
-  const auto is_displaced = [&](std::int32_t medium) {
-    return std::any_of(compiled_.boundaries.begin(), compiled_.boundaries.end(),
-                       [&](const CompiledBoundary& b) { return b.outside == medium; });
+  std::vector<Boundary> boundaries;
+  std::vector<std::size_t> boundary_of_shape;
+  for (const CompiledShape& shape : compiled_.shapes) {
+    boundary_of_shape.push_back(boundaries.size());
+    if (shape.boundary < 0) continue;
+    boundaries.push_back({compiled_.boundaries[static_cast<std::size_t>(shape.boundary)], {}});
+    if (shape.material < 0) boundaries.back().region = region_within(compiled_, shape);
+  }
+  const ArithmeticMedia media(compiled_, boundaries);
+  std::map<const Boundary*, std::int32_t> holes;
+  const auto add_hole = [&](const Boundary* b) {
+    if (!b) return -1;
+    const auto [at, is_new] = holes.try_emplace(b, static_cast<std::int32_t>(compiled_.holes.size()));
+    if (is_new) compiled_.holes.push_back(*b->region);
+    return at->second;
   };
-  const auto to_volume = [&](const CompiledShape& shape) {
-    if (shape.kind != CompiledShape::Kind::mesh || shape.material >= 0 || shape.boundary < 0) return false;
-    const CompiledBoundary& boundary = compiled_.boundaries[static_cast<std::size_t>(shape.boundary)];
-    if (boundary.inside == no_medium || boundary.outside != no_medium || is_displaced(boundary.inside)) return false;
-    const std::optional<Transform> world_from_unit = as_box(compiled_, compiled_.meshes[shape.index]);
-    if (!world_from_unit) return false;
-    const CompiledMedium& medium = compiled_.media[static_cast<std::size_t>(boundary.inside)];
-    if (medium.grid < 0) {
-      compiled_.volumes.push_back({boundary.inside, inverse(*world_from_unit), {0, 0, 0}, {1, 1, 1}});
-      return true;
-    }
-    const std::optional<Box3> box =
-        grid_in_box(compiled_.grids[static_cast<std::size_t>(medium.grid)], medium.index_from_world * *world_from_unit);
-    if (!box) return false;
-    if (!box->empty())
-      compiled_.volumes.push_back({boundary.inside, medium.index_from_world, to_float(box->lo), to_float(box->hi)});
-    return true;
-  };
-  std::erase_if(compiled_.shapes, to_volume);
+  for (const Boundary& b : boundaries) {
+    if (!media.includes(b) || b.media.inside == no_medium) continue;
+    const CompiledRegion region = *media.region_of(b);
+    if (region.lo[0] < region.hi[0] && region.lo[1] < region.hi[1] && region.lo[2] < region.hi[2])
+      compiled_.volumes.push_back({b.media.inside, region, add_hole(media.hole_in(b.media.inside))});
+  }
+  std::size_t next = 0;
+  std::erase_if(compiled_.shapes, [&](const CompiledShape& shape) {
+    const std::size_t boundary = boundary_of_shape[next++];
+    return shape.boundary >= 0 && media.includes(boundaries[boundary]);
+  });
 }
 
 }  // namespace brume

@@ -49,8 +49,8 @@ class Compiler {
 
   // The medium fills the bounds of its grid.
   void add_volume(std::int32_t medium);
-  // Turns shapes that are boxes around a medium, and nothing else, into volumes.
-  void boxes_to_volumes();
+  // Turns shapes that are nothing but boundaries of media, and boxes or spheres, into volumes.
+  void boundaries_to_volumes();
 
   void add_shape(const ShapeDescription& shape);
   void add_geometry(const ShapeDescription& shape, CompiledShape& compiled);

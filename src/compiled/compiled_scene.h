@@ -59,12 +59,26 @@ struct CompiledEmissionFactor {
   float thin = 0;  // world units; see emission_along_flights of the kernel
 };
 
-// A medium that fills a box: lo <= p <= hi in the coordinates of box_from_world, which for a grid are its index
-// coordinates, and the box lies within the grid's bounds.
+// A box, lo <= p <= hi, or the unit ball, |p| <= 1, in coordinates of its own.
+struct CompiledRegion {
+  enum class Kind { box, ball } kind = Kind::box;
+  Transform local_from_world;
+  std::array<float, 3> lo{-1, -1, -1}, hi{1, 1, 1};
+  bool contains(Vector3 p_world) const {
+    const Vector3 p = local_from_world.point(p_world);
+    if (kind == Kind::ball) return dot(p, p) <= 1;
+    return p.x >= static_cast<double>(lo[0]) && p.x <= static_cast<double>(hi[0]) &&
+           p.y >= static_cast<double>(lo[1]) && p.y <= static_cast<double>(hi[1]) &&
+           p.z >= static_cast<double>(lo[2]) && p.z <= static_cast<double>(hi[2]);
+  }
+};
+
+// A medium that fills a region, but for a hole where another shape displaces it. The coordinates of a grid's region are
+// the grid's index coordinates, and the region lies within the grid's bounds.
 struct CompiledVolume {
   std::int32_t medium = no_medium;
-  Transform box_from_world;
-  std::array<float, 3> lo{}, hi{};
+  CompiledRegion region;
+  std::int32_t hole = -1;  // in `holes`; below 0: none
 };
 
 // A surface. blinn_phong: f = diffuse / pi + specular (s + 8) / (8 pi) (n.h)^s, and a mirror. conductor and dielectric
@@ -174,6 +188,7 @@ struct CompiledScene {
   std::vector<CompiledEmissionFactor> emission_factors;
   std::vector<std::uint32_t> blackbody;  // the table of kernel/emission.inl, where a medium has temperatures
   std::vector<CompiledVolume> volumes;
+  std::vector<CompiledRegion> holes;
   std::int32_t camera_medium = no_medium;  // as the Camera directive records it
 
   std::vector<std::array<float, 3>> positions, normals;  // normals are parallel to positions where any mesh has them

@@ -22,7 +22,7 @@ void load_u32_pair(uint array, uint pair, out uint first, out uint second) {
 #include "kernel/all.inl"
 #include "kernel/phase_dispatch.glsl"
 
-const uint result_count = 28;
+const uint result_count = 29;
 
 void main() {
   uint id = gl_GlobalInvocationID.x;
@@ -48,6 +48,7 @@ void main() {
   BoxSpan span = box_span(origin, direction, vec3(0.25), vec3(0.75), 0.0, 1e30);
   results[out_index + 15] = span.t_enter;
   results[out_index + 16] = span.t_length;
+  results[out_index + 27] = ball_span(origin, direction, 0.0, 1e30).t_length;
 
   Dda walk = dda_start(span.entry, direction);
   dda_step(walk);
@@ -94,5 +95,5 @@ void main() {
   placed.linear = true;
   EmissionField field = EmissionField(true, true, placed, placed, u[0], 2000.0, arguments.majorants);
   vec3 emitted = emission_factor(field, origin * 8.0);
-  results[out_index + 27] = emitted.x + emitted.y + emitted.z + emission_along_flights(u[0], u[1]);
+  results[out_index + 28] = emitted.x + emitted.y + emitted.z + emission_along_flights(u[0], u[1]);
 }

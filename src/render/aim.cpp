@@ -14,13 +14,7 @@ float mean_sigma_s_at(const CompiledScene& scene, const MediaAlongRay& media, Ve
     if (m.grid < 0) sigma_s += static_cast<float>(count * mean(m.sigma_s));
   };
   for (const CompiledVolume& volume : scene.volumes) {
-    const Vector3 q = volume.box_from_world.point(p);
-    const double at[] = {q.x, q.y, q.z};
-    bool inside = true;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      inside = inside && at[axis] >= static_cast<double>(volume.lo[axis]) &&
-               at[axis] <= static_cast<double>(volume.hi[axis]);
-    if (inside) add(volume.medium, 1);
+    if (is_in(scene, volume, p)) add(volume.medium, 1);
   }
   for (const auto& [medium, count] :
        media.counts_at({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}))

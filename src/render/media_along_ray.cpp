@@ -45,6 +45,45 @@ class ActiveMedia {
   std::size_t size_ = 0;
 };
 
+// The part of a ray's [t_begin, t_end] that lies in a region; `direction` becomes that in the region's coordinates.
+kernel::BoxSpan span_in(const CompiledRegion& region, const Ray& ray, float t_begin, float t_end, vec3& direction) {
+  const auto to_float = [](Vector3 v) {
+    return vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
+  };
+  const Transform& m = region.local_from_world;
+  const vec3 origin = to_float(m.point({ray.origin.x, ray.origin.y, ray.origin.z}));
+  direction = to_float(m.vector({ray.direction.x, ray.direction.y, ray.direction.z}));
+  if (region.kind == CompiledRegion::Kind::ball) return kernel::ball_span(origin, direction, t_begin, t_end);
+  return kernel::box_span(origin, direction, {region.lo[0], region.lo[1], region.lo[2]},
+                          {region.hi[0], region.hi[1], region.hi[2]}, t_begin, t_end);
+}
+
+// Adds the part of a span that lies in a region, less what lies in its hole.
+void add_span_in_region(const Ray& ray, MediumSpan span, const CompiledRegion& region, const CompiledRegion* hole,
+                        std::vector<MediumSpan>& spans) {
+  const kernel::BoxSpan within = span_in(region, ray, span.t_begin, span.t_end, span.direction_index);
+  if (!(within.t_length > 0)) return;
+  span.t_begin = within.t_enter;
+  span.t_end = within.t_enter + within.t_length;
+  span.entry_index = within.entry;
+  if (!hole) {
+    spans.push_back(span);
+    return;
+  }
+  vec3 unused(0, 0, 0);
+  const kernel::BoxSpan gap = span_in(*hole, ray, span.t_begin, span.t_end, unused);
+  if (!(gap.t_length > 0)) {
+    spans.push_back(span);
+    return;
+  }
+  MediumSpan before = span, after = span;
+  before.t_end = gap.t_enter;
+  after.t_begin = gap.t_enter + gap.t_length;
+  after.entry_index = within.entry + (after.t_begin - span.t_begin) * span.direction_index;
+  for (const MediumSpan& part : {before, after})
+    if (part.t_end > part.t_begin) spans.push_back(part);
+}
+
 }  // namespace
 
 MediaAlongRay::MediaAlongRay(const CompiledScene& scene, const Intersector& intersector)
@@ -58,16 +97,8 @@ MediaAlongRay::MediaAlongRay(const CompiledScene& scene, const Intersector& inte
     if (count < 0) missing.emplace_back(medium, -count);
   }
   surrounding_ = std::move(missing);
-  for (const CompiledVolume& volume : scene.volumes) {
-    const Vector3 in_box = volume.box_from_world.point(eye);
-    bool inside = volume.medium == scene.camera_medium;
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto i = static_cast<std::size_t>(axis);
-      inside = inside && static_cast<double>(volume.lo[i]) <= in_box[axis] &&
-               in_box[axis] <= static_cast<double>(volume.hi[i]);
-    }
-    accounted = accounted || inside;
-  }
+  for (const CompiledVolume& volume : scene.volumes)
+    accounted = accounted || (volume.medium == scene.camera_medium && is_in(scene, volume, eye));
   if (!accounted) surrounding_.emplace_back(scene.camera_medium, 1);
 }
 
@@ -99,8 +130,9 @@ std::optional<vec3> MediaAlongRay::find(std::span<const Ray> rays, std::vector<M
   const std::optional<vec3> too_many = find_bounded(rays, spans, scratch);
   for (std::size_t i = 0; i < rays.size(); ++i)
     for (const CompiledVolume& volume : scene_.volumes)
-      add_span_in_box(rays[i], {static_cast<int>(i), volume.medium, 1, 0, rays[i].t_max, {0, 0, 0}, {0, 0, 0}}, volume,
-                      spans);
+      add_span_in_region(rays[i], {static_cast<int>(i), volume.medium, 1, 0, rays[i].t_max, {0, 0, 0}, {0, 0, 0}},
+                         volume.region,
+                         volume.hole < 0 ? nullptr : &scene_.holes[static_cast<std::size_t>(volume.hole)], spans);
   return too_many;
 }
 
@@ -152,27 +184,11 @@ void MediaAlongRay::add_span(const Ray& ray, MediumSpan span, std::vector<Medium
   const CompiledMedium& medium = scene_.media[static_cast<std::size_t>(span.medium)];
   if (medium.grid >= 0) {
     const CompiledGrid& grid = scene_.grids[static_cast<std::size_t>(medium.grid)];
-    add_span_in_box(ray, span, {span.medium, medium.index_from_world, grid.bounds_lo, grid.bounds_hi}, spans);
+    add_span_in_region(ray, span, {CompiledRegion::Kind::box, medium.index_from_world, grid.bounds_lo, grid.bounds_hi},
+                       nullptr, spans);
   } else if (span.t_end > span.t_begin) {
     spans.push_back(span);
   }
-}
-
-void MediaAlongRay::add_span_in_box(const Ray& ray, MediumSpan span, const CompiledVolume& volume,
-                                    std::vector<MediumSpan>& spans) const {
-  const auto to_float = [](Vector3 v) {
-    return vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
-  };
-  const Transform& m = volume.box_from_world;
-  const vec3 origin = to_float(m.point({ray.origin.x, ray.origin.y, ray.origin.z}));
-  const vec3 direction = to_float(m.vector({ray.direction.x, ray.direction.y, ray.direction.z}));
-  const vec3 lo(volume.lo[0], volume.lo[1], volume.lo[2]), hi(volume.hi[0], volume.hi[1], volume.hi[2]);
-  const kernel::BoxSpan within = kernel::box_span(origin, direction, lo, hi, span.t_begin, span.t_end);
-  span.t_begin = within.t_enter;
-  span.t_end = within.t_enter + within.t_length;
-  span.entry_index = within.entry;
-  span.direction_index = direction;
-  if (span.t_end > span.t_begin) spans.push_back(span);
 }
 
 }  // namespace brume

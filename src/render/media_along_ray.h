@@ -21,6 +21,12 @@ struct MediumSpan {
   kernel::vec3 entry_index{0, 0, 0}, direction_index{0, 0, 0};
 };
 
+// Whether a volume's medium is there.
+inline bool is_in(const CompiledScene& scene, const CompiledVolume& volume, Vector3 p) {
+  return volume.region.contains(p) &&
+         !(volume.hole >= 0 && scene.holes[static_cast<std::size_t>(volume.hole)].contains(p));
+}
+
 class MediaAlongRay {
  public:
   // Finds, once, which media surround all shapes: the one that the camera records, where the boundaries around the
@@ -36,14 +42,14 @@ class MediaAlongRay {
   std::optional<kernel::vec3> find(std::span<const Ray> rays, std::vector<MediumSpan>& spans,
                                    std::vector<Crossing>& scratch) const;
 
-  // The same for media with boundaries of shapes and the one around all; volumes in boxes are left out.
+  // The same for media with boundaries of shapes and the one around all; the scene's volumes are left out.
   std::optional<kernel::vec3> find_bounded(std::span<const Ray> rays, std::vector<MediumSpan>& spans,
                                            std::vector<Crossing>& scratch) const;
 
   // Whether any medium surrounds all shapes.
   bool has_surrounding_medium() const { return !surrounding_.empty(); }
 
-  // The media at a point and how many times over each is there, volumes in boxes apart. For messages and for the
+  // The media at a point and how many times over each is there, the scene's volumes apart. For messages and for the
   // camera.
   std::vector<std::pair<int, int>> counts_at(kernel::vec3 p) const;
 
@@ -51,8 +57,6 @@ class MediaAlongRay {
   std::optional<kernel::vec3> follow(const Ray& ray, int ray_index, std::span<const Crossing> crossings,
                                      std::vector<MediumSpan>& spans) const;
   void add_span(const Ray& ray, MediumSpan span, std::vector<MediumSpan>& spans) const;
-  void add_span_in_box(const Ray& ray, MediumSpan span, const CompiledVolume& volume,
-                       std::vector<MediumSpan>& spans) const;
 
   const CompiledScene& scene_;
   const Intersector& intersector_;

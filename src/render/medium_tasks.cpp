@@ -10,36 +10,55 @@ HWY_BEFORE_NAMESPACE();
 namespace brume {
 namespace HWY_NAMESPACE {
 
-// Adds the stretches of rays within a box to the tasks that begin at `out`; returns how many. `ordinal` numbers the
-// media that a ray may cross, so that each has random numbers of its own.
-std::uint32_t clip_lanes(const BoxFrame& box, const RayColumns& rays, std::uint32_t count, std::uint32_t ordinal,
+HWY_INLINE BoxSpan span_in(const RegionFrame& region, vec3 o, vec3 d, F t_begin, F t_end, vec3& direction) {
+  const vec3 origin = rows_times(region.matrix, o);
+  direction = vec3(row_times(region.matrix[0], d), row_times(region.matrix[1], d), row_times(region.matrix[2], d));
+  if (region.is_ball) return ball_span(origin, direction, t_begin, t_end);
+  return box_span(origin, direction, vec3(region.lo[0], region.lo[1], region.lo[2]),
+                  vec3(region.hi[0], region.hi[1], region.hi[2]), t_begin, t_end);
+}
+
+// Adds the stretches of rays within a volume to the tasks that begin at `at`; returns how many.
+std::uint32_t clip_lanes(const VolumeFrame& volume, const RayColumns& rays, std::uint32_t count,
                          const TrackColumns& out, std::uint32_t at) {
   const std::uint32_t first = at;
-  const vec3 lo(box.lo[0], box.lo[1], box.lo[2]), hi(box.hi[0], box.hi[1], box.hi[2]);
   for (std::uint32_t i = 0; i < count; i += static_cast<std::uint32_t>(lane_count())) {
-    const F t_max = load_lanes(rays.t_max + i);
     const I index = lane_index() + I(static_cast<std::int32_t>(i));
     const vec3 o = load3(rays.origin, i), d = load3(rays.direction, i);
-    const vec3 origin = rows_times(box.matrix, o);
-    const vec3 direction(row_times(box.matrix[0], d), row_times(box.matrix[1], d), row_times(box.matrix[2], d));
-    const BoxSpan span = box_span(origin, direction, lo, hi, F(0.0f), t_max);
+    vec3 direction;
+    const BoxSpan span = span_in(volume.region, o, d, F(0.0f), load_lanes(rays.t_max + i), direction);
     const B crosses = both(span.t_length > 0.0f, index < I(static_cast<std::int32_t>(count)));
     if (!any(crosses)) continue;
-    const Packing packing = packing_of(crosses);
-    const U key = hash_word((load_lanes(rays.key + i) ^ U(0x7f4a7c15u)) + U(ordinal * 0x9e3779b9u));
-    const U pixel = load_lanes(rays.pixel + i), sample = load_lanes(rays.sample + i);
-    const F u = ordinal == 0 ? load_lanes(rays.distance_u + i) : random_uniform(key, pixel, sample, U(0xffffffffu));
-    append3(span.entry, packing, out.entry, at);
-    append3(direction, packing, out.direction, at);
-    append(span.t_length, packing, out.length + at);
-    append(span.t_enter, packing, out.t_begin + at);
-    append(-log_natural(1.0f - u), packing, out.optical_depth + at);
-    append(key, packing, out.key + at);
-    append(pixel, packing, out.pixel + at);
-    append(sample, packing, out.sample + at);
-    append(load_lanes(rays.hero + i), packing, out.hero + at);
-    append(as_uint(index), packing, out.ray + at);
-    at += packing.count;
+    const auto add = [&](B there, vec3 entry, F t_begin, F length, std::uint32_t ordinal) {
+      if (!any(there)) return;
+      const Packing packing = packing_of(there);
+      const U key = hash_word((load_lanes(rays.key + i) ^ U(0x7f4a7c15u)) + U(ordinal * 0x9e3779b9u));
+      const U pixel = load_lanes(rays.pixel + i), sample = load_lanes(rays.sample + i);
+      const F u = ordinal == 0 ? load_lanes(rays.distance_u + i) : random_uniform(key, pixel, sample, U(0xffffffffu));
+      append3(entry, packing, out.entry, at);
+      append3(direction, packing, out.direction, at);
+      append(length, packing, out.length + at);
+      append(t_begin, packing, out.t_begin + at);
+      append(-log_natural(1.0f - u), packing, out.optical_depth + at);
+      append(key, packing, out.key + at);
+      append(pixel, packing, out.pixel + at);
+      append(sample, packing, out.sample + at);
+      append(load_lanes(rays.hero + i), packing, out.hero + at);
+      append(as_uint(index), packing, out.ray + at);
+      at += packing.count;
+    };
+    if (!volume.has_hole) {
+      add(crosses, span.entry, span.t_enter, span.t_length, volume.ordinal);
+      continue;
+    }
+    vec3 unused;
+    const F t_exit = span.t_enter + span.t_length;
+    const BoxSpan gap = span_in(volume.hole, o, d, span.t_enter, t_exit, unused);
+    const B cut = gap.t_length > 0.0f;
+    const F before = select(cut, gap.t_enter - span.t_enter, span.t_length);
+    const F from = select(cut, gap.t_enter + gap.t_length, t_exit), after = t_exit - from;
+    add(both(crosses, before > 0.0f), span.entry, span.t_enter, before, volume.ordinal);
+    add(both(crosses, after > 0.0f), span.entry + (from - span.t_enter) * direction, from, after, volume.ordinal + 1);
   }
   return at - first;
 }
@@ -57,6 +76,21 @@ namespace brume {
 
 HWY_EXPORT(clip_lanes);
 
+namespace {
+
+RegionFrame make_frame(const CompiledRegion& region) {
+  RegionFrame frame;
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t i = 0; i < 4; ++i) frame.matrix[row][i] = static_cast<float>(region.local_from_world.m[row][i]);
+    frame.lo[row] = region.lo[row];
+    frame.hi[row] = region.hi[row];
+  }
+  frame.is_ball = region.kind == CompiledRegion::Kind::ball;
+  return frame;
+}
+
+}  // namespace
+
 MediumTasks::MediumTasks(const CompiledScene& scene, const Intersector& intersector, const MediaAlongRay& media)
     : scene_(scene), intersector_(intersector), media_(media), tasks_(scene.media.size()) {
   for (const CompiledMedium& medium : scene.media) {
@@ -65,23 +99,19 @@ MediumTasks::MediumTasks(const CompiledScene& scene, const Intersector& intersec
     if (medium.grid >= 0) grids_.back().emplace(scene.grids[static_cast<std::size_t>(medium.grid)], medium);
   }
   for (const CompiledVolume& volume : scene.volumes) {
-    BoxFrame box{};
-    for (std::size_t row = 0; row < 3; ++row) {
-      for (std::size_t i = 0; i < 4; ++i) box.matrix[row][i] = static_cast<float>(volume.box_from_world.m[row][i]);
-      box.lo[row] = volume.lo[row];
-      box.hi[row] = volume.hi[row];
-    }
-    box.medium = volume.medium;
-    boxes_.push_back(box);
+    VolumeFrame frame{make_frame(volume.region), {}, volume.hole >= 0, volume.medium, ordinal_count_};
+    if (frame.has_hole) frame.hole = make_frame(scene.holes[static_cast<std::size_t>(volume.hole)]);
+    ordinal_count_ += frame.has_hole ? 2 : 1;
+    volumes_.push_back(frame);
   }
 }
 
 void MediumTasks::find_stretches(const RayColumns& rays, std::uint32_t count) {
   for (TrackTasks& tasks : tasks_) tasks.count = 0;
-  for (std::uint32_t i = 0; i < boxes_.size(); ++i) {
-    TrackTasks& tasks = tasks_[static_cast<std::size_t>(boxes_[i].medium)];
-    tasks.make_room(count);
-    tasks.count += HWY_DYNAMIC_DISPATCH(clip_lanes)(boxes_[i], rays, count, i, tasks.columns, tasks.count);
+  for (const VolumeFrame& volume : volumes_) {
+    TrackTasks& tasks = tasks_[static_cast<std::size_t>(volume.medium)];
+    tasks.make_room(volume.has_hole ? 2 * count : count);
+    tasks.count += HWY_DYNAMIC_DISPATCH(clip_lanes)(volume, rays, count, tasks.columns, tasks.count);
   }
   if (intersector_.has_boundaries() || media_.has_surrounding_medium()) add_bounded_media(rays, count);
 }
@@ -101,7 +131,7 @@ void MediumTasks::add_bounded_media(const RayColumns& rays, std::uint32_t count)
   std::uint32_t ordinal = 0;
   for (std::size_t s = 0; s < spans_.size(); ++s) {
     const MediumSpan& span = spans_[s];
-    ordinal = s > 0 && spans_[s - 1].ray == span.ray ? ordinal : static_cast<std::uint32_t>(boxes_.size());
+    ordinal = s > 0 && spans_[s - 1].ray == span.ray ? ordinal : ordinal_count_;
     const std::uint32_t ray = ray_of_span_[static_cast<std::size_t>(span.ray)];
     TrackTasks& tasks = tasks_[static_cast<std::size_t>(span.medium)];
     // A medium that is there twice collides twice as often.

@@ -22,11 +22,20 @@ struct FlightColumns {
   float* passed = nullptr;
 };
 
-// A CompiledVolume in floats.
-struct BoxFrame {
-  float matrix[3][4];
-  float lo[3], hi[3];
-  std::int32_t medium;
+// A CompiledRegion in floats.
+struct RegionFrame {
+  float matrix[3][4] = {};
+  float lo[3] = {}, hi[3] = {};
+  bool is_ball = false;
+};
+
+// A CompiledVolume in floats. `ordinal` numbers the stretches that a ray may have in volumes, so that each has random
+// numbers of its own; one with a hole has two.
+struct VolumeFrame {
+  RegionFrame region, hole;
+  bool has_hole = false;
+  std::int32_t medium = no_medium;
+  std::uint32_t ordinal = 0;
 };
 
 // One to each worker: it keeps its memory from call to call.
@@ -71,7 +80,8 @@ class MediumTasks {
   const Intersector& intersector_;
   const MediaAlongRay& media_;
   bool is_chromatic_ = false;
-  std::vector<BoxFrame> boxes_;
+  std::vector<VolumeFrame> volumes_;
+  std::uint32_t ordinal_count_ = 0;                // of stretches in volumes
   std::vector<std::optional<TrackedGrid>> grids_;  // by medium; none for homogeneous ones
   std::vector<TrackTasks> tasks_;                  // by medium
   TrackTasks again_;

@@ -43,6 +43,16 @@ class ColumnMemory {
     return r;
   }
 
+  // In all columns.
+  void copy_row(std::uint32_t from, std::uint32_t to) {
+    const auto copy = [&](auto& columns) {
+      for (auto& column : columns) column[to] = column[from];
+    };
+    copy(floats_);
+    copy(words_);
+    copy(integers_);
+  }
+
  private:
   std::uint32_t rows_;
   std::vector<std::vector<float>> floats_;

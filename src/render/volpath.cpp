@@ -48,8 +48,9 @@ VolpathIntegrator::VolpathIntegrator(const CompiledScene& scene, const Intersect
       last_depth_(scene.integrator.max_depth - (paths_meet_light(scene) ? 0 : 1)),
       media_(scene, intersector, media),
       shadow_media_(scene, intersector, media),
+      path_memory_(path_count),
       memory_(shadow_room),
-      paths_(memory_),
+      paths_(path_memory_),
       shadows_(memory_),
       hits_(path_count),
       requests_(path_count) {
@@ -140,20 +141,22 @@ void VolpathIntegrator::render_tile(const PixelBox& pixels, int first, int last,
   Tile tile{pixels, first, last, static_cast<std::uint32_t>(pixels.width() * pixels.height()) * samples, 0};
   sums_.assign(tile.sample_count, {});
   filter_weights_.resize(tile.sample_count);
-  for (idle_.clear(); idle_.size() < path_count;) idle_.push_back(static_cast<std::uint32_t>(idle_.size()));
+  places_ = path_count;
+  for (idle_.clear(); idle_.size() < places_;) idle_.push_back(static_cast<std::uint32_t>(idle_.size()));
   for (;;) {
     start_paths(tile);
-    if (idle_.size() == path_count) break;
+    if (idle_.size() == places_) break;
+    if (tile.next == tile.sample_count && idle_.size() > places_ / 2) close_ranks();
     find_surfaces();
     shadow_count_ = 0;
-    media_.find_stretches(paths_.ray, path_count);
+    media_.find_stretches(paths_.ray, places_);
     place_lights_along_flights();
     place_emission_along_flights();
-    media_.find_collisions(paths_.ray, path_count, paths_.flight);
+    media_.find_collisions(paths_.ray, places_, paths_.flight);
     end_flights();
     for (const ScatterJob& job : jobs_) {
-      make_room_for_shadow_rays(path_count);
-      answer_requests(job, scatter_paths(job, paths_, path_count, shadows_, shadow_count_, requests_.data()));
+      make_room_for_shadow_rays(places_);
+      answer_requests(job, scatter_paths(job, paths_, places_, shadows_, shadow_count_, requests_.data()));
     }
     gather_shadow_rays();
     finish_paths();
@@ -164,10 +167,26 @@ void VolpathIntegrator::render_tile(const PixelBox& pixels, int first, int last,
       for (std::uint32_t s = 0; s < samples; ++s, ++at) film.add(x, y, filter_weights_[at] * sums_[at]);
 }
 
+// The last paths of a tile can be long ones, and the stages go through all places: moves the paths to the first ones.
+void VolpathIntegrator::close_ranks() {
+  std::uint32_t taken = 0;
+  for (std::uint32_t i = 0; i < places_; ++i) {
+    if (paths_.target[i] == idle) continue;
+    if (i != taken) {
+      path_memory_.copy_row(i, taken);
+      paths_.ray.t_max[i] = 0;
+      paths_.target[i] = idle;
+    }
+    ++taken;
+  }
+  places_ = taken;
+  idle_.clear();
+}
+
 // Fills idle paths with new samples, once there are many of them or nothing else is left to do.
 void VolpathIntegrator::start_paths(Tile& tile) {
   const auto fresh = std::min(static_cast<std::uint32_t>(idle_.size()), tile.sample_count - tile.next);
-  if (fresh == 0 || (idle_.size() < path_count / 8 && idle_.size() < path_count)) return;
+  if (fresh == 0 || (idle_.size() < places_ / 8 && idle_.size() < places_)) return;
   const auto width = static_cast<std::uint32_t>(tile.pixels.width());
   const auto samples = static_cast<std::uint32_t>(tile.last - tile.first);
   for (std::uint32_t i = 0; i < fresh; ++i) {
@@ -223,7 +242,7 @@ Ray VolpathIntegrator::ray_of(std::uint32_t path) const {
 // Flights end at the first surface ahead.
 void VolpathIntegrator::find_surfaces() {
   if (!intersector_.has_surfaces()) return;
-  for (std::uint32_t i = 0; i < path_count; ++i) {
+  for (std::uint32_t i = 0; i < places_; ++i) {
     hits_[i].shape = -1;
     if (!(paths_.ray.t_max[i] > 0)) continue;
     if (intersector_.nearest_surface(ray_of(i), hits_[i]))
@@ -258,7 +277,7 @@ void VolpathIntegrator::place_emission_along_flights() {
 // What becomes of paths that met no medium.
 void VolpathIntegrator::end_flights() {
   const bool has_surfaces = intersector_.has_surfaces();
-  for (std::uint32_t i = 0; i < path_count; ++i) {
+  for (std::uint32_t i = 0; i < places_; ++i) {
     if (!(paths_.ray.t_max[i] > 0)) continue;
     if (media_.is_chromatic())
       for (int c = 0; c < 3; ++c) {
@@ -389,7 +408,7 @@ void VolpathIntegrator::gather_shadow_rays() {
 
 // Hands in the samples whose paths have ended.
 void VolpathIntegrator::finish_paths() {
-  for (std::uint32_t i = 0; i < path_count; ++i) {
+  for (std::uint32_t i = 0; i < places_; ++i) {
     if (paths_.ray.t_max[i] > 0 || paths_.target[i] == idle) continue;
     sums_[paths_.target[i]] = spectrum_at(paths_.radiance, i) + spectrum_at(paths_.gathered, i);
     paths_.target[i] = idle;

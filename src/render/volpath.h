@@ -56,6 +56,7 @@ class VolpathIntegrator {
   const LightTable& lights_at_collisions(const CompiledMedium& medium) const;
   void make_jobs();
   EmissionJob emission_job(std::int32_t medium) const;
+  void close_ranks();
   void start_paths(Tile& tile);
   void start_path(std::uint32_t path, std::uint32_t fresh, std::uint32_t target);
   void find_surfaces();
@@ -83,8 +84,9 @@ class VolpathIntegrator {
   const Aim aim_;
   const int last_depth_;  // paths that have been scattered more often meet no light any more
   MediumTasks media_, shadow_media_;
-  ColumnMemory memory_;
+  ColumnMemory path_memory_, memory_;
   PathColumns paths_;
+  std::uint32_t places_ = 0;  // of paths_: the rows that are in use
   ShadowColumns shadows_;
   std::uint32_t shadow_count_ = 0;
   float* transmittance_[3] = {};
@@ -98,7 +100,7 @@ class VolpathIntegrator {
   std::vector<EmissionJob> emission_jobs_;  // by medium: of those with grids that emit
   std::vector<LightRequest> requests_;
 
-  std::vector<std::uint32_t> idle_;  // paths that are to be started
+  std::vector<std::uint32_t> idle_;  // places of paths that are to be started
   std::vector<Spectrum> sums_;       // by sample of the tile
   std::vector<float> filter_weights_;
   std::vector<Ray> shadow_rays_;

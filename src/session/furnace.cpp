@@ -26,7 +26,7 @@ CompiledScene furnace_scene(VolumeGrid grid, int threads) {
   CompiledGrid compiled = compile_grid(std::move(grid), medium.linear, thread_count(threads));
   medium.sigma_t = medium.sigma_s = constant_spectrum(100 / (2 * compiled.max_density));
   CompiledScene scene;
-  scene.volumes = {{0, medium.index_from_world, compiled.bounds_lo, compiled.bounds_hi}};
+  scene.volumes = {{0, {CompiledRegion::Kind::box, medium.index_from_world, compiled.bounds_lo, compiled.bounds_hi}}};
   scene.media = {medium};
   scene.grids.push_back(std::move(compiled));
   return scene;

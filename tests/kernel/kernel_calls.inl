@@ -50,6 +50,14 @@ inline void call_box_span(const F* in, F* out, const TestGrid&) {
   out[3] = s.t_enter;
   out[4] = s.t_length;
 }
+inline void call_ball_span(const F* in, F* out, const TestGrid&) {
+  const BoxSpan s = ball_span(call_vec3(in), call_vec3(in + 3), F(0.0f), F(1e30f));
+  out[0] = s.entry.x;
+  out[1] = s.entry.y;
+  out[2] = s.entry.z;
+  out[3] = s.t_enter;
+  out[4] = s.t_length;
+}
 // About the axis in[0..2], which is made a unit vector; in[3] and in[4] are in [0, 1).
 inline void call_directions(const F* in, F* out, const TestGrid&) {
   const vec3 axis = normalize(call_vec3(in));
@@ -150,6 +158,7 @@ constexpr KernelCall kernel_calls[] = {
     CALL(atan_turns, 1, 1),       CALL(random_words, 4, 4),
     CALL(majorant_walk, 6, 24),   CALL(grid_stochastic, 5, 1),
     CALL(emission_factor, 3, 3),  CALL(emission_along_flights, 1, 1),
+    CALL(ball_span, 6, 5),
 #include "kernel/phase_list.inl"
 };
 #undef PHASE

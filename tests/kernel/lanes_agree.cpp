@@ -103,6 +103,8 @@ std::map<std::string, Agreement, std::less<>> agreements() {
                        }};
   all["box_clip"] = {0, 0, box_argument};
   all["box_span"] = {2, 1e-5, box_argument};
+  // A grazing ray's chord is the root of a difference of nearly equal numbers.
+  all["ball_span"] = {2, 2e-3, [](int n, int a) { return uniform(n, a, -2, 2); }};
   all["directions"] = {8, 4e-7, [](int n, int a) { return uniform(n, a, a < 3 ? -1 : 0, 1); }};
   all["aimed_density"] = {64, 1e-6, range(-1, 1)};
   all["aimed_strength"] = {2, 0, range(0.1f, 2)};

@@ -16,15 +16,11 @@ struct Fault {
   void (*plant)(SceneDescription&);
 };
 
-// What a sample takes, which decides how many of them the tests can afford.
-enum class Paths { brief, longer, very_long, longest };
-
 struct Case {
   std::string name;
   SceneDescription scene;  // for one integrator or another
   std::vector<Expected> expected;
   Fault fault;
-  Paths paths = Paths::brief;
 };
 
 // How GoogleTest shows a case.

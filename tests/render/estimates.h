@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "render/scenes.h"
@@ -12,8 +13,10 @@ struct Estimate {
   double mean, standard_error;
 };
 
+using Estimates = std::array<Estimate, channel_count>;
+
 // The means of `samples` independent samples of the scene's pixel, by channel.
-std::array<Estimate, channel_count> estimates(const SceneDescription& scene, int samples);
+Estimates estimates(const SceneDescription& scene, int samples);
 inline Estimate estimate(const SceneDescription& scene, int samples, int channel = 0) {
   return estimates(scene, samples)[static_cast<std::size_t>(channel)];
 }
@@ -23,10 +26,17 @@ struct Expected {
   double value, rounding;
 };
 
+// Estimates for the second of two renderers that follow nearly the same paths, given those of the first: the mean
+// difference of `samples` of the same samples by both is added, and its error. `go_over` changes from the first
+// renderer to the second. Where hardly a path is another one, few samples are enough.
+Estimates corrected(const Estimates& of_first, const SceneDescription& first, const std::function<void()>& go_over,
+                    const SceneDescription& second, int samples);
+
 // |mean - expected| <= 4 standard errors + rounding, with as many samples as bring the standard error to
 // `relative_error` of the expected value (ten times that under sanitizers, which look for other faults), in the first
 // channels of the scene. Prints mean, error, expected and z.
-void expect_estimates(const SceneDescription& scene, const std::vector<Expected>& expected, double relative_error);
+Estimates expect_estimates(const SceneDescription& scene, const std::vector<Expected>& expected, double relative_error);
+void expect_estimates(const Estimates& found, const std::vector<Expected>& expected, double relative_error);
 inline void expect_estimate(const SceneDescription& scene, double expected, double rounding, double relative_error) {
   expect_estimates(scene, {{expected, rounding}}, relative_error);
 }
@@ -37,5 +47,8 @@ void expect_rejected(const SceneDescription& scene, const std::vector<Expected>&
 inline void expect_rejected(const SceneDescription& scene, double expected) {
   expect_rejected(scene, {{expected, 0}}, 1e-3);
 }
+
+// How many standard errors the worst mean is from what is expected, beyond the rounding.
+double furthest_out(const Estimates& found, const std::vector<Expected>& expected);
 
 }  // namespace brume
