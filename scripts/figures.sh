@@ -12,6 +12,7 @@ brume=build/release/bin/brume
 "$brume" scenes/surfaces.pbrt --resolution 480x300 --spp 256 -o docs/images/surfaces.png
 "$brume" scenes/lamp_in_fog.pbrt --resolution 480x300 --spp 256 -o docs/images/lamp_in_fog.png
 "$brume" scenes/two_clouds.pbrt --resolution 480x300 --spp 128 -o docs/images/two_clouds.png
+for scene in fire fog liquid; do "$brume" "scenes/$scene.pbrt" -o "docs/images/$scene.png"; done
 "$brume" scenes/smoke_by_a_lamp.pbrt --spp 512 -o docs/images/smoke_by_a_lamp.png
 volumes=$(mktemp -d)
 trap 'rm -rf "$volumes"' EXIT

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "base/geometry.h"
+
 namespace brume {
 
 // A parameter from lo to hi, both included.
@@ -61,5 +63,13 @@ constexpr Procedural usual_procedural(ProceduralName kind, int size = 128, std::
   for (std::size_t i = 0; i < p.values.size(); ++i) p.values[i] = p.table().parameters[i].fallback;
   return p;
 }
+
+// pbrt's medium "cloud": noise in a box, dense at the bottom (y = 0) and gone at the top (y = 1).
+struct NoiseCloud {
+  double density = 1, wispiness = 1, frequency = 5;
+  Vector3 p0{0, 0, 0}, p1{1, 1, 1};  // p0 below p1 on all axes
+  int size = 128;                    // voxels along the longest side
+  bool operator==(const NoiseCloud&) const = default;
+};
 
 }  // namespace brume

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "compile/compiler.h"
+#include "compile/rgb_grids.h"
 
 namespace brume {
 
@@ -26,6 +27,7 @@ FilmResponse film_response(const FilmDescription& film, const CameraDescription&
 }  // namespace
 
 CompiledScene compile(const SceneDescription& scene, int threads, std::vector<Diagnostic>& warnings) {
+  if (has_rgb_grids(scene)) return Compiler(with_rgb_grids_as_sums(scene), threads).run(warnings);
   return Compiler(scene, threads).run(warnings);
 }
 

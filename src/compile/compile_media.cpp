@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <optional>
 
 #include "compile/compile.h"
 #include "compile/compiler.h"
@@ -15,21 +16,20 @@ namespace brume {
 namespace {
 
 // Where a medium's grid comes from, as text: media that say the same share the grid.
-std::string grid_key(const MediumDescription& medium) {
+std::string grid_key(const MediumDescription& medium, const std::string& file_grid) {
+  const std::string lookup = fmt::format("{} {}", medium.storage_bits, medium.linear_interpolation);
   if (const auto* file = std::get_if<FileMedium>(&medium.kind))
-    return fmt::format("file {}\n{}\n{} {}", file->filename, file->grid, medium.storage_bits,
-                       medium.linear_interpolation);
+    return fmt::format("file {}\n{}\n{}", file->filename, file_grid, lookup);
   if (const auto* made = std::get_if<ProceduralMedium>(&medium.kind)) {
     const Procedural& p = made->procedural;
-    return fmt::format("{} {} {} {} {} {}", p.table().name, p.size, p.seed, fmt::join(p.values, " "),
-                       medium.storage_bits, medium.linear_interpolation);
+    return fmt::format("{} {} {} {} {}", p.table().name, p.size, p.seed, fmt::join(p.values, " "), lookup);
   }
   return "medium " + medium.name;
 }
 
-VolumeGrid load_uniform_grid(const UniformGridMedium& u, Storage storage) {
+VolumeGrid make_uniform_grid(const UniformGridMedium& u, const std::vector<float>& values, Storage storage) {
   VolumeGrid grid;
-  grid.bricks = make_brick_grid(u.resolution, u.density, storage);
+  grid.bricks = make_brick_grid(u.resolution, values, storage);
   const Vector3 size = u.p1 - u.p0;
   grid.medium_from_index =
       translate(u.p0) * scale({size.x / u.resolution[0], size.y / u.resolution[1], size.z / u.resolution[2]});
@@ -37,13 +37,7 @@ VolumeGrid load_uniform_grid(const UniformGridMedium& u, Storage storage) {
   return grid;
 }
 
-VolumeGrid load_grid(const MediumDescription& medium, int threads) {
-  const auto storage = static_cast<Storage>(medium.storage_bits);
-  if (const auto* file = std::get_if<FileMedium>(&medium.kind)) return read_volume(file->filename, file->grid, storage);
-  if (const auto* made = std::get_if<ProceduralMedium>(&medium.kind))
-    return procedural_density(made->procedural, storage, threads);
-  return load_uniform_grid(std::get<UniformGridMedium>(medium.kind), storage);
-}
+Storage storage_of(const MediumDescription& medium) { return static_cast<Storage>(medium.storage_bits); }
 
 // Small enough to stay in the second cache of a core. (With 64 KB cells are half as large again along each edge and a
 // path takes as long: it steps less and looks up more.)
@@ -99,33 +93,72 @@ CompiledMedium Compiler::make_medium(const MediumDescription& medium) {
   c.phase = medium.phase;
   c.phase_prepared = phase_functions()[static_cast<std::size_t>(medium.phase)].prepare(medium.phase_parameters.data());
   c.linear = medium.linear_interpolation;
-  if (!std::holds_alternative<HomogeneousMedium>(medium.kind)) c.grid = grid_index(medium, c);
+  if (std::holds_alternative<HomogeneousMedium>(medium.kind)) return c;
+  const LoadedGrid density = density_grid(medium);
+  c.grid = density.index;
+  const Transform world_from_index = medium.world_from_medium * density.medium_from_index;
+  c.index_from_world = inverse(world_from_index);
+  const double edge = std::min({length(world_from_index.vector({1, 0, 0})), length(world_from_index.vector({0, 1, 0})),
+                                length(world_from_index.vector({0, 0, 1}))});
+  c.default_step = edge / 2;
+  if (c.grid >= 0 && !is_zero(c.emission)) add_emission_factor(medium, density, c);
   return c;
 }
 
-// Loads the medium's grid, or finds it loaded, and places it. A file that cannot be read is an error at the medium.
-int Compiler::grid_index(const MediumDescription& medium, CompiledMedium& compiled) {
-  const std::string key = grid_key(medium);
-  auto known = grids_.find(key);
-  if (known == grids_.end()) {
-    try {
-      VolumeGrid grid = load_grid(medium, threads_);
-      const LoadedGrid loaded{static_cast<int>(compiled_.grids.size()), grid.medium_from_index};
-      compiled_.grids.push_back(compile_grid(std::move(grid), medium.linear_interpolation, threads_));
-      known = grids_.emplace(key, loaded).first;
-    } catch (const InputError& e) {
-      for (const Diagnostic& d : e.diagnostics())
-        error(medium.location.line > 0 ? medium.location : d.location,
-              medium.location.line > 0 ? fmt::format("{}: {}", d.location.file, d.message) : d.message);
-      return -1;
+template <class Load>
+Compiler::LoadedGrid Compiler::loaded_grid(const MediumDescription& medium, const std::string& key, Load load) {
+  if (const auto known = grids_.find(key); known != grids_.end()) return known->second;
+  LoadedGrid loaded{-1, {}};
+  try {
+    if (std::optional<VolumeGrid> grid = load()) {
+      loaded = {static_cast<int>(compiled_.grids.size()), grid->medium_from_index};
+      compiled_.grids.push_back(compile_grid(std::move(*grid), medium.linear_interpolation, threads_));
     }
+    grids_.emplace(key, loaded);
+  } catch (const InputError& e) {
+    for (const Diagnostic& d : e.diagnostics())
+      error(medium.location.line > 0 ? medium.location : d.location,
+            medium.location.line > 0 ? fmt::format("{}: {}", d.location.file, d.message) : d.message);
   }
-  const Transform world_from_index = medium.world_from_medium * known->second.medium_from_index;
-  compiled.index_from_world = inverse(world_from_index);
-  const double edge = std::min({length(world_from_index.vector({1, 0, 0})), length(world_from_index.vector({0, 1, 0})),
-                                length(world_from_index.vector({0, 0, 1}))});
-  compiled.default_step = edge / 2;
-  return known->second.index;
+  return loaded;
+}
+
+Compiler::LoadedGrid Compiler::density_grid(const MediumDescription& medium) {
+  const auto* file = std::get_if<FileMedium>(&medium.kind);
+  return loaded_grid(medium, grid_key(medium, file ? file->grid : ""), [&]() -> std::optional<VolumeGrid> {
+    const Storage storage = storage_of(medium);
+    if (file) return read_volume(file->filename, file->grid, storage);
+    if (const auto* made = std::get_if<ProceduralMedium>(&medium.kind))
+      return procedural_density(made->procedural, storage, threads_);
+    if (const auto* noise = std::get_if<CloudMedium>(&medium.kind))
+      return make_noise_cloud(noise->cloud, storage, threads_);
+    const auto& uniform = std::get<UniformGridMedium>(medium.kind);
+    return make_uniform_grid(uniform, uniform.density, storage);
+  });
+}
+
+// A grid of temperatures that was not asked for by name may be missing.
+Compiler::LoadedGrid Compiler::temperature_grid(const MediumDescription& medium) {
+  const auto* file = std::get_if<FileMedium>(&medium.kind);
+  const std::string key = fmt::format("temperature {}", grid_key(medium, file ? file->temperature_grid : ""));
+  return loaded_grid(medium, key, [&]() -> std::optional<VolumeGrid> {
+    const Storage storage = storage_of(medium);
+    if (file)
+      return file->temperature_asked_for ? read_volume(file->filename, file->temperature_grid, storage)
+                                         : find_volume(file->filename, file->temperature_grid, storage);
+    if (const auto* made = std::get_if<ProceduralMedium>(&medium.kind))
+      return procedural_temperature(made->procedural, storage, threads_);
+    const auto& uniform = std::get<UniformGridMedium>(medium.kind);
+    return make_uniform_grid(uniform, uniform.temperature, storage);
+  });
+}
+
+Compiler::LoadedGrid Compiler::strength_grid(const MediumDescription& medium) {
+  const auto* uniform = std::get_if<UniformGridMedium>(&medium.kind);
+  if (!uniform || uniform->strength.empty()) return {-1, {}};
+  return loaded_grid(medium, fmt::format("strength {}", grid_key(medium, "")), [&]() -> std::optional<VolumeGrid> {
+    return make_uniform_grid(*uniform, uniform->strength, storage_of(medium));
+  });
 }
 
 }  // namespace brume

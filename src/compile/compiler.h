@@ -48,7 +48,19 @@ class Compiler {
   // names that are not defined (an error).
   std::int32_t medium_index(const std::string& name, const Location& used_at);
   CompiledMedium make_medium(const MediumDescription& medium);
-  int grid_index(const MediumDescription& medium, CompiledMedium& compiled);
+  struct LoadedGrid {
+    int index;  // below 0: none
+    Transform medium_from_index;
+  };
+  // The grid that `load` returns, or one that was loaded before under the same key. One that cannot be read is an error
+  // at the medium.
+  template <class Load>
+  LoadedGrid loaded_grid(const MediumDescription& medium, const std::string& key, Load load);
+  LoadedGrid density_grid(const MediumDescription& medium);
+  LoadedGrid temperature_grid(const MediumDescription& medium);
+  LoadedGrid strength_grid(const MediumDescription& medium);
+  // Emission by temperatures or from place to place, for a medium whose grid is there and that emits.
+  void add_emission_factor(const MediumDescription& medium, const LoadedGrid& density, CompiledMedium& compiled);
 
   // The medium fills the bounds of its grid.
   void add_volume(std::int32_t medium);
@@ -93,10 +105,6 @@ class Compiler {
   };
   std::vector<LightArea> light_areas_;                            // of the area lights
   std::size_t first_world_vertex_ = 0, first_world_quadric_ = 0;  // those before belong to objects
-  struct LoadedGrid {
-    int index;
-    Transform medium_from_index;
-  };
   std::vector<std::int32_t> textures_;  // in the compiled scene, by the index of their description
   std::map<std::tuple<std::string, double, bool>, std::int32_t> images_;  // by file, gamma and whether of numbers
   std::map<std::string, LoadedGrid> grids_;                               // by file, grid, storage and interpolation

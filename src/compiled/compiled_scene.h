@@ -40,13 +40,25 @@ struct CompiledGrid {
 // Coefficients, phase function, and the density's grid with its placement; homogeneous where grid is below 0.
 struct CompiledMedium {
   Spectrum sigma_t, sigma_s;  // per world unit at density 1
-  Spectrum emission;          // sigma_a Le, per world unit at density 1
+  Spectrum emission;          // sigma_a Le, per world unit at density 1 and where its factor is 1
   int phase = 0;
   std::array<float, 4> phase_prepared{};
   int grid = -1;
+  int emission_factor = -1;  // in emission_factors: of every medium with a grid that emits; of no other
   bool linear = true;
   Transform index_from_world;
   double default_step = 0;  // world units, half the smallest edge of a voxel; 0 for homogeneous media
+};
+
+// What emission is multiplied by from place to place (kernel/emission.inl), and where to look for it.
+struct CompiledEmissionFactor {
+  int temperature = -1, strength = -1;                    // grids; below 0: none
+  Transform temperature_from_index, strength_from_index;  // from the index coordinates of the medium's density
+  float temperature_offset = 0, temperature_scale = 1;
+  // Of each of the density's cells of majorants: about how much of what is emitted in it is to be gathered along
+  // flights, in proportion. Above 0 wherever the density is.
+  std::vector<std::uint32_t> cells;
+  float thin = 0;  // world units; see emission_along_flights of the kernel
 };
 
 // A box, lo <= p <= hi, or the unit ball, |p| <= 1, in coordinates of its own.
@@ -248,6 +260,8 @@ struct CompiledScene {
 
   std::vector<CompiledGrid> grids;
   std::vector<CompiledMedium> media;
+  std::vector<CompiledEmissionFactor> emission_factors;
+  std::vector<std::uint32_t> blackbody;  // the table of kernel/emission.inl, where a medium has temperatures
   std::vector<CompiledVolume> volumes;
   std::vector<CompiledRegion> holes;
   std::int32_t camera_medium = no_medium;  // as the Camera directive records it
@@ -273,5 +287,47 @@ struct CompiledScene {
   std::vector<float> triangle_cdfs;  // cumulative shares of area of the triangles of mesh lights, likewise
   std::vector<CompiledEnvironment> environments;
 };
+
+// As kernels take it.
+inline kernel::PlacedGrid placed_grid(const CompiledGrid& grid, const Transform& own_from_index, bool linear) {
+  kernel::PlacedGrid placed{grid.view(), {}, {}, {}, linear};
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t i = 0; i < 4; ++i) placed.to_own[4 * row + i] = static_cast<float>(own_from_index.m[row][i]);
+    placed.lo[row] = grid.bounds_lo[row];
+    placed.hi[row] = grid.bounds_hi[row];
+  }
+  return placed;
+}
+
+inline kernel::EmissionField emission_field(const CompiledScene& scene, const CompiledMedium& medium) {
+  kernel::EmissionField field{};
+  if (medium.emission_factor < 0) return field;
+  const auto& factor = scene.emission_factors[static_cast<std::size_t>(medium.emission_factor)];
+  const auto place = [&](int grid, const Transform& own_from_index) {
+    return placed_grid(scene.grids[static_cast<std::size_t>(grid)], own_from_index, medium.linear);
+  };
+  field.has_temperature = factor.temperature >= 0;
+  if (field.has_temperature) field.temperature = place(factor.temperature, factor.temperature_from_index);
+  field.has_strength = factor.strength >= 0;
+  if (field.has_strength) field.strength = place(factor.strength, factor.strength_from_index);
+  field.offset = factor.temperature_offset;
+  field.scale = factor.temperature_scale;
+  field.blackbody = scene.blackbody.data();
+  return field;
+}
+
+// Of each medium.
+inline std::vector<kernel::EmissionField> emission_fields(const CompiledScene& scene) {
+  std::vector<kernel::EmissionField> fields;
+  for (const CompiledMedium& medium : scene.media) fields.push_back(emission_field(scene, medium));
+  return fields;
+}
+
+// What a medium emits at a place in its grid's index coordinates, per unit of density.
+inline Spectrum emission_at(const CompiledMedium& medium, const kernel::EmissionField& field, kernel::vec3 p_index) {
+  if (is_zero(medium.emission)) return {};
+  const kernel::vec3 factor = kernel::emission_factor(field, p_index);
+  return medium.emission * Spectrum{{factor.x, factor.y, factor.z}};
+}
 
 }  // namespace brume

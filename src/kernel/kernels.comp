@@ -22,7 +22,7 @@ void load_u32_pair(uint array, uint pair, out uint first, out uint second) {
 #include "kernel/all.inl"
 #include "kernel/phase_dispatch.glsl"
 
-const uint result_count = 29;
+const uint result_count = 30;
 
 void main() {
   uint id = gl_GlobalInvocationID.x;
@@ -87,4 +87,14 @@ void main() {
   results[out_index + 22] = majorant_at(majorants, cells.cell);
   RandomWords r = random_words(words[0], id, 0u, 12u);
   results[out_index + 23] = grid_stochastic(grid, origin * 8.0, r.x, r.y);
+
+  PlacedGrid placed;
+  placed.grid = grid;
+  for (int i = 0; i < 12; ++i) placed.to_own[i] = u[i];
+  placed.lo = float[3](0.0, 0.0, 0.0);
+  placed.hi = float[3](8.0, 8.0, 8.0);
+  placed.linear = true;
+  EmissionField field = EmissionField(true, true, placed, placed, u[0], 2000.0, arguments.majorants);
+  vec3 emitted = emission_factor(field, origin * 8.0);
+  results[out_index + 29] = emitted.x + emitted.y + emitted.z + emission_along_flights(u[0], u[1]);
 }

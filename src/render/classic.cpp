@@ -34,7 +34,11 @@ RandomStream::Pair stratified(RandomStream::Pair numbers, int i, int n) {
 
 ClassicIntegrator::ClassicIntegrator(const CompiledScene& scene, const Intersector& intersector,
                                      const MediaAlongRay& media)
-    : scene_(scene), intersector_(intersector), media_(media), visibility_(scene, intersector, media) {}
+    : scene_(scene),
+      intersector_(intersector),
+      media_(media),
+      emission_fields_(emission_fields(scene)),
+      visibility_(scene, intersector, media) {}
 
 Spectrum ClassicIntegrator::radiance(Ray ray, RandomStream& random, Foreground& seen) {
   Spectrum result;
@@ -224,7 +228,9 @@ Spectrum ClassicIntegrator::take_step(const Ray& ray, std::size_t step, bool sca
     const MediumSpan& span = active_[i];
     const CompiledMedium& medium = scene_.media[static_cast<std::size_t>(span.medium)];
     optical_depth = optical_depth + amount * medium.sigma_t;
-    emission = emission + amount * medium.emission;
+    const vec3 p_index = span.entry_index + (sample_t_[step] - span.t_begin) * span.direction_index;
+    emission =
+        emission + amount * emission_at(medium, emission_fields_[static_cast<std::size_t>(span.medium)], p_index);
     if (scatters && !is_zero(medium.sigma_s)) scatterings_.push_back({span.medium, amount * medium.sigma_s});
   }
   if (is_zero(optical_depth)) return {};

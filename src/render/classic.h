@@ -12,8 +12,8 @@
 //       + T(t_surface) (surface's reflected light),
 // where tau_i is the step's optical depth, T the transmittance up to it, and Ls = sum over lights of phase function
 // times the light that arrives. Within a step the coefficients are those of its one sample (march) or its exact mean
-// (dda); a bias of O(step^2) for placements about the middle and O(step) for "start" is left. A path of the camera ends
-// where its transmittance falls below 1e-4.
+// (dda), and what multiplies emission from place to place is that of the sample; a bias of O(step^2) for placements
+// about the middle and O(step) for "start" is left. A path of the camera ends where its transmittance falls below 1e-4.
 // With random placements, steps that scatter little share shadow rays: one is chosen for every 1/32 of the light that
 // the ray scatters, by systematic sampling, which costs no bias and, over a picture's samples, next to no noise.
 // Source: N. Max, "Optical Models for Direct Volume Rendering", TVCG 1(2), 1995, section 5; T. Whitted, "An Improved
@@ -85,6 +85,7 @@ class ClassicIntegrator {
   const CompiledScene& scene_;
   const Intersector& intersector_;
   const MediaAlongRay& media_;
+  const std::vector<kernel::EmissionField> emission_fields_;
   Visibility visibility_;
   std::optional<kernel::vec3> too_many_media_;
 

@@ -38,6 +38,25 @@ HWY_INLINE vec3 select3(B m, vec3 a, vec3 b) {
 HWY_INLINE vec3 lanes_of(kernel::vec3 v) { return vec3(v.x, v.y, v.z); }
 HWY_INLINE BrickGrid lanes_of(const kernel::BrickGrid& g) { return {g.table, g.bricks, g.table_x, g.table_xy, g.bits}; }
 
+HWY_INLINE F row_times(const float* row, vec3 v) { return fma(row[0], v.x, fma(row[1], v.y, F(row[2]) * v.z)); }
+// The image of a point.
+HWY_INLINE vec3 rows_times(const float (&rows)[3][4], vec3 p) {
+  return vec3(row_times(rows[0], p) + rows[0][3], row_times(rows[1], p) + rows[1][3],
+              row_times(rows[2], p) + rows[2][3]);
+}
+
+HWY_INLINE PlacedGrid lanes_of(const kernel::PlacedGrid& g) {
+  PlacedGrid lanes{lanes_of(g.grid), {}, {}, {}, g.linear};
+  for (int i = 0; i < 12; ++i) lanes.to_own[i] = g.to_own[i];
+  for (int i = 0; i < 3; ++i) lanes.lo[i] = g.lo[i], lanes.hi[i] = g.hi[i];
+  return lanes;
+}
+HWY_INLINE EmissionField lanes_of(const kernel::EmissionField& e) {
+  return {e.has_temperature, e.has_strength, lanes_of(e.temperature), lanes_of(e.strength), e.offset,
+          e.scale,           e.blackbody};
+}
+HWY_INLINE MajorantGrid lanes_of(const kernel::MajorantGrid& g) { return {g.cells, g.row, g.layer, g.cells_per_voxel}; }
+
 HWY_INLINE std::size_t count_lanes(B m) { return hn::CountTrue(float_tag, m.m); }
 HWY_INLINE B no_lanes() { return F(0.0f) < F(0.0f); }
 

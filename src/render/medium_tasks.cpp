@@ -10,12 +10,8 @@ HWY_BEFORE_NAMESPACE();
 namespace brume {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE F row_times(const float* row, vec3 v) { return fma(row[0], v.x, fma(row[1], v.y, F(row[2]) * v.z)); }
-
 HWY_INLINE BoxSpan span_in(const RegionFrame& region, vec3 o, vec3 d, F t_begin, F t_end, vec3& direction) {
-  const vec3 origin(row_times(region.matrix[0], o) + region.matrix[0][3],
-                    row_times(region.matrix[1], o) + region.matrix[1][3],
-                    row_times(region.matrix[2], o) + region.matrix[2][3]);
+  const vec3 origin = rows_times(region.matrix, o);
   direction = vec3(row_times(region.matrix[0], d), row_times(region.matrix[1], d), row_times(region.matrix[2], d));
   if (region.is_ball) return ball_span(origin, direction, t_begin, t_end);
   return box_span(origin, direction, vec3(region.lo[0], region.lo[1], region.lo[2]),

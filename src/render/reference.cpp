@@ -148,6 +148,13 @@ float ReferenceIntegrator::density(const MediumSpan& span, float t) {
   return static_cast<float>(span.count) * (medium.linear ? grid_linear(grid, p) : grid_nearest(grid, p));
 }
 
+// What the medium emits at density 1.
+Spectrum ReferenceIntegrator::emission_at_density_1(const MediumSpan& span, float t) const {
+  const auto medium = static_cast<std::size_t>(span.medium);
+  const vec3 p = span.entry_index + (t - span.t_begin) * span.direction_index;
+  return emission_at(scene_.media[medium], emission_fields_[medium], p);
+}
+
 // Flies along the ray up to its t_max; true where a collision with a medium ends the flight. `throughput` is changed by
 // the channels' weights, and at a collision by the albedo; `emitted` gets what the media emit towards the origin.
 bool ReferenceIntegrator::fly(const Ray& ray, RandomStream& random, Spectrum& throughput, Spectrum& emitted,
@@ -160,7 +167,7 @@ bool ReferenceIntegrator::fly(const Ray& ray, RandomStream& random, Spectrum& th
       const CompiledMedium& medium = scene_.media[static_cast<std::size_t>(span.medium)];
       const float d = density(span, t);
       sigma_t = sigma_t + d * medium.sigma_t;
-      emission = emission + d * medium.emission;
+      emission = emission + d * emission_at_density_1(span, t);
     }
     emitted = emitted + (1 / majorant) * throughput * emission;
     // A little more than the majorant may be rounding.

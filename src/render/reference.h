@@ -29,7 +29,7 @@ namespace brume {
 class ReferenceIntegrator {
  public:
   ReferenceIntegrator(const CompiledScene& scene, const Intersector& intersector, const MediaAlongRay& media)
-      : scene_(scene), intersector_(intersector), media_(media) {}
+      : scene_(scene), intersector_(intersector), media_(media), emission_fields_(emission_fields(scene)) {}
 
   // The radiance that arrives at the ray's origin; `seen` gets what the ray meets, its depth along the ray.
   Spectrum radiance(Ray ray, RandomStream& random, Foreground& seen);
@@ -58,10 +58,12 @@ class ReferenceIntegrator {
   template <class Visit>
   void tentative_collisions(bool grids_only, RandomStream& random, Visit visit);
   float density(const MediumSpan& span, float t);
+  Spectrum emission_at_density_1(const MediumSpan& span, float t) const;
 
   const CompiledScene& scene_;
   const Intersector& intersector_;
   const MediaAlongRay& media_;
+  const std::vector<kernel::EmissionField> emission_fields_;
   std::optional<kernel::vec3> too_many_media_;
   RenderCounts counts_;
 

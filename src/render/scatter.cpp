@@ -96,12 +96,25 @@ HWY_INLINE EventNumbers event_numbers(const PathColumns& paths, std::uint32_t i,
   return n;
 }
 
+// What emission is multiplied by at collisions: all of it in homogeneous media, and of grids the share that is not
+// gathered along flights.
+HWY_INLINE vec3 emission_here(const ScatterJob& job, B here, vec3 p) {
+  if (!job.grid) return vec3(1.0f, 1.0f, 1.0f);
+  const vec3 p_index = select3(here, rows_times(job.grid->index_from_world, p), vec3(0.0f, 0.0f, 0.0f));
+  const MajorantGrid majorants = lanes_of(job.grid->majorants);
+  const MajorantWalk cell = majorant_start(majorants, p_index, vec3(1.0f, 0.0f, 0.0f));
+  const F majorant = majorant_at(majorants, cell.cell) * job.grid->sigma_majorant;
+  const F share = F(1.0f) - emission_along_flights(majorant, job.emission_thin);
+  return share * emission_factor(lanes_of(job.emission_field), p_index);
+}
+
 template <class Phase>
 std::uint32_t scatter(const ScatterJob& job, const PathColumns& paths, std::uint32_t count,
                       const ShadowColumns& shadows, std::uint32_t& shadow_count, LightRequest* requests) {
   const vec4 phase(job.phase_numbers[0], job.phase_numbers[1], job.phase_numbers[2], job.phase_numbers[3]);
   const F max_depth = static_cast<float>(job.max_depth), last_depth = static_cast<float>(job.last_depth);
   const std::uint32_t hashed_seed = hash_seed(job.seed);
+  const bool emits = job.emission[0] > 0 || job.emission[1] > 0 || job.emission[2] > 0;
   std::uint32_t request_count = 0;
   std::uint32_t at = shadow_count;
   for (std::uint32_t i = 0; i < count; i += static_cast<std::uint32_t>(lane_count())) {
@@ -128,11 +141,13 @@ std::uint32_t scatter(const ScatterJob& job, const PathColumns& paths, std::uint
     }
     const F scale = F(1.0f) / (hero_sigma * mean_rescale);
     F largest = 0.0f;
+    const vec3 factor = emits ? emission_here(job, here, p) : vec3(0.0f, 0.0f, 0.0f);
+    const F factors[3] = {factor.x, factor.y, factor.z};
     for (int c = 0; c < 3; ++c) {
       const F before = load_lanes(paths.throughput[c] + i);
-      if (job.emission[c] > 0) {
+      if (emits) {
         const F seen = load_lanes(paths.radiance[c] + i);
-        put(fma(before * job.emission[c], scale, seen), here, paths.radiance[c] + i);
+        put(fma(before * job.emission[c] * factors[c], scale, seen), here, paths.radiance[c] + i);
       }
       f[c] = before * (job.sigma_s[c] / hero_sigma);
       largest = max(largest, f[c]);

@@ -37,6 +37,8 @@ struct ScatterJob {
   float phase_numbers[4] = {};
   float sigma_t[3] = {}, sigma_s[3] = {}, emission[3] = {};  // of a grid: at density 1
   const TrackedGrid* grid = nullptr;                         // none: homogeneous
+  kernel::EmissionField emission_field{};                    // of a grid that emits,
+  float emission_thin = 0;                                   // and how much of it is gathered along flights
 };
 
 // Moves the paths that collided with the job's medium to their collisions, adds what is emitted there, sends shadow

@@ -282,7 +282,12 @@ TrackedGrid::TrackedGrid(const CompiledGrid& grid, const CompiledMedium& medium)
       linear(medium.linear),
       sigma_t{medium.sigma_t[0], medium.sigma_t[1], medium.sigma_t[2]},
       sigma_majorant(max_value(medium.sigma_t)),
-      chromatic(!(medium.sigma_t == constant_spectrum(medium.sigma_t[0]))) {}
+      chromatic(!(medium.sigma_t == constant_spectrum(medium.sigma_t[0]))),
+      index_from_world{} {
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t i = 0; i < 4; ++i)
+      index_from_world[row][i] = static_cast<float>(medium.index_from_world.m[row][i]);
+}
 
 void TrackTasks::make_room(std::uint32_t more) {
   const std::uint32_t needed = count + more + widest_vector;

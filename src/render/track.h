@@ -26,6 +26,7 @@ struct TrackedGrid {
   float sigma_t[3];      // at density 1, per world unit
   float sigma_majorant;  // the largest of them
   bool chromatic;        // they differ
+  float index_from_world[3][4];
 };
 
 // Stretches of rays through one medium, as columns. Stretch i is entry + t direction in index coordinates for t in

@@ -101,6 +101,11 @@ void VolpathIntegrator::make_jobs() {
     }
     std::copy(medium.phase_prepared.begin(), medium.phase_prepared.end(), job.phase_numbers);
     job.grid = media_.grid(job.medium);
+    if (medium.emission_factor >= 0) {
+      emission_jobs_.push_back(emission_job(job.medium));
+      job.emission_field = emission_jobs_.back().field;
+      job.emission_thin = emission_jobs_.back().thin;
+    }
     if (places) {
       // Through a homogeneous medium all light of points is placed; in a grid, whose density is known only where it is
       // looked up, that near them.
@@ -116,6 +121,20 @@ void VolpathIntegrator::make_jobs() {
         job.density_scale = all_lights_.chance[k] / other_lights_.chance[k];
     jobs_.push_back(job);
   }
+}
+
+EmissionJob VolpathIntegrator::emission_job(std::int32_t index) const {
+  const CompiledMedium& medium = scene_.media[static_cast<std::size_t>(index)];
+  EmissionJob job;
+  job.medium = index;
+  job.grid = media_.grid(index);
+  const auto& factor = scene_.emission_factors[static_cast<std::size_t>(medium.emission_factor)];
+  job.cells = factor.cells.data();
+  job.thin = factor.thin;
+  job.field = emission_field(scene_, medium);
+  std::copy_n(medium.emission.value.begin(), channel_count, job.emission);
+  job.is_chromatic = media_.is_chromatic();
+  return job;
 }
 
 void VolpathIntegrator::render_tile(const PixelBox& pixels, int first, int last, Film& film) {
@@ -134,6 +153,7 @@ void VolpathIntegrator::render_tile(const PixelBox& pixels, int first, int last,
     shadow_count_ = 0;
     media_.find_stretches(paths_.ray, places_);
     place_lights_along_flights();
+    place_emission_along_flights();
     media_.find_collisions(paths_.ray, places_, paths_.flight);
     end_flights();
     for (const ScatterJob& job : jobs_) {
@@ -252,6 +272,17 @@ void VolpathIntegrator::place_lights_along_flights() {
       make_room_for_shadow_rays(path_count);
       place_lights(job, paths_, stretches.columns, first, std::min(first + path_count, stretches.count), shadows_,
                    shadow_count_);
+    }
+  }
+}
+
+void VolpathIntegrator::place_emission_along_flights() {
+  for (const EmissionJob& job : emission_jobs_) {
+    const TrackTasks& stretches = media_.stretches(job.medium);
+    for (std::uint32_t first = 0; first < stretches.count; first += path_count) {
+      make_room_for_shadow_rays(path_count);
+      place_emission(job, paths_, stretches.columns, first, std::min(first + path_count, stretches.count), shadows_,
+                     shadow_count_);
     }
   }
 }
@@ -384,7 +415,7 @@ void VolpathIntegrator::gather_shadow_rays() {
     blocked_.resize(shadow_count_);
     intersector_.occluded(shadow_rays_, blocked_);
     for (std::uint32_t i = 0; i < shadow_count_; ++i) {
-      if (!blocked_[i]) continue;
+      if (!blocked_[i] || shadows_.ray.t_max[i] == 0) continue;
       shadows_.ray.t_max[i] = shadows_.lead.t_max[i] = 0;
       set(shadows_.value, i, Spectrum{});
     }
@@ -396,7 +427,7 @@ void VolpathIntegrator::gather_shadow_rays() {
       for (int c = 0; c < 3; ++c) shadows_.value[c][i] *= transmittance_[media_.is_chromatic() ? c : 0][i];
   };
   pass(shadows_.ray);
-  if (!placement_jobs_.empty()) pass(shadows_.lead);
+  if (!placement_jobs_.empty() || !emission_jobs_.empty()) pass(shadows_.lead);
   for (std::uint32_t i = 0; i < shadow_count_; ++i)
     for (int c = 0; c < 3; ++c) paths_.gathered[c][shadows_.path[i]] += shadows_.value[c][i];
   shadow_count_ = 0;

@@ -5,8 +5,9 @@
 // room for a new one, so that the loops stay full.
 //
 // Light is gathered by shadow rays to one light a scattering, chosen in proportion to power, and by paths that meet a
-// light, with the balance heuristic of multiple importance sampling. A constant infinite light is left to paths alone:
-// they find it with less noise than shadow rays do. Light of points in media is gathered along flights as well
+// light, with the balance heuristic of multiple importance sampling. What thin grids emit is gathered along
+// flights (emission_placement.h), what other media emit where paths collide. A constant infinite light is left to paths
+// alone: they find it with less noise than shadow rays do. Light of points in media is gathered along flights as well
 // (light_placement.h), which are aimed at the points (aim.h).
 #pragma once
 
@@ -15,6 +16,7 @@
 
 #include "image/film.h"
 #include "image/filter.h"
+#include "render/emission_placement.h"
 #include "render/light_table.h"
 #include "render/paths.h"
 #include "render/render_counts.h"
@@ -52,11 +54,13 @@ class VolpathIntegrator {
   float max_extinction(const CompiledMedium& medium) const;
   const LightTable& lights_at_collisions(const CompiledMedium& medium) const;
   void make_jobs();
+  EmissionJob emission_job(std::int32_t medium) const;
   void close_ranks();
   void start_paths(Tile& tile);
   void start_path(std::uint32_t path, std::uint32_t fresh, std::uint32_t target);
   void find_surfaces();
   void place_lights_along_flights();
+  void place_emission_along_flights();
   void end_flights();
   void see_environment(std::uint32_t path, float share);
   void meet_surface(std::uint32_t path);
@@ -93,6 +97,7 @@ class VolpathIntegrator {
   LightTable all_lights_, point_lights_, other_lights_;
   std::vector<ScatterJob> jobs_;            // by medium: at collisions
   std::vector<ScatterJob> placement_jobs_;  // by medium: along flights; none where no light is placed
+  std::vector<EmissionJob> emission_jobs_;  // by medium: of those with grids that emit
   std::vector<LightRequest> requests_;
 
   std::vector<std::uint32_t> idle_;  // places of paths that are to be started

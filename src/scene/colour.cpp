@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -39,7 +40,21 @@ double lobe(double x, double mean, double below, double above) {
 // Planck's law but for a factor that does not depend on the wavelength.
 double planck(double nm, double kelvin) {
   constexpr double second_radiation_constant = 1.438776877e7;  // nm K
-  return std::pow(nm / 560, -5) / std::expm1(second_radiation_constant / (nm * kelvin));
+  const double x = 560 / nm;
+  return x * x * x * x * x / std::expm1(second_radiation_constant / (nm * kelvin));
+}
+
+Vector3 blackbody_xyz(double kelvin) {
+  static const auto matching = [] {
+    std::array<Vector3, longest_wavelength - shortest_wavelength + 1> by_nm;
+    for (std::size_t i = 0; i < by_nm.size(); ++i)
+      by_nm[i] = matching_functions(shortest_wavelength + static_cast<double>(i));
+    return by_nm;
+  }();
+  Vector3 xyz;
+  for (std::size_t i = 0; i < matching.size(); ++i)
+    xyz = xyz + planck(shortest_wavelength + static_cast<double>(i), kelvin) * matching[i];
+  return xyz;
 }
 
 // A colour in Rec.709, where negative channels, and of an albedo those above 1, are what no colour there can have.
@@ -146,10 +161,14 @@ double luminance(const Spectrum& colour) {
 
 Spectrum equal_energy_white() { return at_luminance_1(from_xyz({1, 1, 1})); }
 
+Spectrum blackbody_emission(double kelvin) {
+  if (!(kelvin > 0)) return {};
+  constexpr double wien = 2.897771955e6;  // nm K: where Planck's law is largest
+  return from_xyz((1 / planck(wien / kelvin, kelvin)) * blackbody_xyz(kelvin));
+}
+
 Spectrum blackbody_colour(double kelvin) {
-  Vector3 xyz;
-  for (int nm = shortest_wavelength; nm <= longest_wavelength; ++nm)
-    xyz = xyz + planck(nm, kelvin) * matching_functions(nm);
+  const Vector3 xyz = blackbody_xyz(kelvin);
   return at_luminance_1(from_xyz((1 / xyz.y) * xyz));
 }
 

@@ -27,6 +27,11 @@ Spectrum equal_energy_white();
 // Source: Planck's law.
 Spectrum blackbody_colour(double kelvin);
 
+// What a black body emits at a temperature in kelvin, by Planck's law divided by its maximum over all wavelengths, as
+// pbrt takes it for media with temperatures: XYZ is the integral over nanometres, so that luminance is at most 106.86.
+// Sources as above; 0 at 0.
+Spectrum blackbody_emission(double kelvin);
+
 struct ColourFault {
   std::string message;    // an error; empty: none
   std::string warning;    // what is taken otherwise than written; empty: nothing

@@ -88,13 +88,27 @@ struct HomogeneousMedium {};
 struct UniformGridMedium {
   std::array<int, 3> resolution{1, 1, 1};
   Vector3 p0{0, 0, 0}, p1{1, 1, 1};
-  std::vector<float> density;  // x fastest
+  std::vector<float> density;        // x fastest
+  std::vector<float> temperature{};  // the same; empty: none
+  std::vector<float> strength{};     // what emission is multiplied by; empty: 1 everywhere
+};
+
+// Type "rgbgrid": coefficients of each cell and channel, times `sigma_a` and `sigma_s` of the medium; `emission` of the
+// medium multiplies what is emitted.
+struct RgbGridMedium {
+  std::array<int, 3> resolution{1, 1, 1};
+  Vector3 p0{0, 0, 0}, p1{1, 1, 1};
+  std::vector<float> sigma_a, sigma_s;  // three a cell, x fastest; empty: 1 everywhere
+  std::vector<float> emission;          // Le, three a cell; empty: none
 };
 
 // Type "vdb", "nanovdb" or "vol": a grid from a file (its suffix says of which kind), read when the scene is compiled.
 struct FileMedium {
   std::string filename;  // resolved
   std::string grid;      // "" chooses
+  // Of temperatures; "": none. One that was not asked for by name may be missing.
+  std::string temperature_grid{};
+  bool temperature_asked_for = false;
 };
 
 // Type "procedural".
@@ -102,16 +116,31 @@ struct ProceduralMedium {
   Procedural procedural = usual_procedural(ProceduralName::cloud);
 };
 
+// Emission by temperature: where the medium's grid of temperatures holds t, as of a black body at (t - offset) scale
+// kelvin.
+struct TemperatureScale {
+  double offset = 0, scale = 1;
+  bool operator==(const TemperatureScale&) const = default;
+};
+
+// Type "cloud".
+struct CloudMedium {
+  NoiseCloud cloud;
+};
+
 struct MediumDescription {
   std::string name;
   Transform world_from_medium;
   Spectrum sigma_a = constant_spectrum(1), sigma_s = constant_spectrum(1);
-  Spectrum emission;                            // Le: the emitted radiance is sigma_a Le per unit of length
+  // Le: the emitted radiance is sigma_a Le per unit of length. With temperatures, what black bodies' colours (see
+  // blackbody_emission in scene/colour.h) are multiplied by.
+  Spectrum emission;
+  std::optional<TemperatureScale> temperatures{};
   int phase = phase_kind("henyey_greenstein");  // index into phase_functions()
   std::vector<float> phase_parameters = {0};    // in the order of the phase function's table
   bool linear_interpolation = true;
   int storage_bits = 16;  // 8, 16 or 32
-  std::variant<HomogeneousMedium, UniformGridMedium, FileMedium, ProceduralMedium> kind;
+  std::variant<HomogeneousMedium, UniformGridMedium, FileMedium, ProceduralMedium, CloudMedium, RgbGridMedium> kind;
   Location location;
 };
 

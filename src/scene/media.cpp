@@ -6,16 +6,12 @@
 #include <limits>
 
 #include "kernel/phase_table.h"
+#include "scene/media.h"
 #include "scene/medium_presets.h"
 #include "scene/reader.h"
 
 namespace brume {
 
-namespace {
-
-constexpr std::int64_t max_voxels_along_axis = 65536;
-
-// The product of a factor and a colour, which must fit floats.
 Spectrum scaled(ParameterList& p, double factor, const Spectrum& colour, std::string_view what) {
   Spectrum product;
   for (int c = 0; c < channel_count; ++c) {
@@ -28,6 +24,36 @@ Spectrum scaled(ParameterList& p, double factor, const Spectrum& colour, std::st
   }
   return product;
 }
+
+std::vector<float> read_cells(ParameterList& p, std::string_view name, const std::array<int, 3>& resolution,
+                              const Range& range, ParameterType type) {
+  Parameter* parameter = p.find(type, name);
+  if (!parameter) return {};
+  const std::vector<double>& values = parameter->numbers;
+  const std::int64_t cells = std::int64_t{resolution[0]} * resolution[1] * resolution[2];
+  const std::size_t a_cell = type == ParameterType::rgb ? 3 : 1;
+  // Compared by division: the number of cells may be more than can be counted three times over.
+  if (values.size() % a_cell != 0 || static_cast<std::int64_t>(values.size() / a_cell) != cells) {
+    p.value_error(*parameter, 0,
+                  fmt::format("must have nx ny nz = {} x {} x {} = {} {}, found {}", resolution[0], resolution[1],
+                              resolution[2], cells, a_cell == 3 ? "colours" : "values",
+                              values.size() % a_cell == 0 ? fmt::format("{}", values.size() / a_cell)
+                                                          : fmt::format("{} numbers", values.size())));
+    return {};
+  }
+  const auto wrong = std::find_if(values.begin(), values.end(), [&](double v) { return !range.holds(v); });
+  if (wrong != values.end())
+    p.value_error(*parameter, static_cast<std::size_t>(wrong - values.begin()),
+                  fmt::format("{}, found {}", range.text(), *wrong));
+  std::vector<float> result(values.size());
+  std::transform(values.begin(), values.end(), result.begin(), [](double v) { return static_cast<float>(v); });
+  parameter->numbers = {};
+  return result;
+}
+
+namespace {
+
+constexpr std::int64_t max_voxels_along_axis = 65536;
 
 // The coefficients of the preset that a homogeneous medium names; false where it names none.
 bool read_preset(ParameterList& p, double scale, MediumDescription& medium) {
@@ -53,27 +79,6 @@ void read_coefficients(ParameterList& p, MediumDescription& medium, bool is_homo
   if (is_homogeneous && read_preset(p, scale, medium)) return;
   medium.sigma_a = scaled(p, scale, p.colour("sigma_a", constant_spectrum(1), ColourUse::coefficient), "sigma_a");
   medium.sigma_s = scaled(p, scale, p.colour("sigma_s", constant_spectrum(1), ColourUse::coefficient), "sigma_s");
-}
-
-void read_emission(ParameterList& p, MediumDescription& medium) {
-  p.rename("LeScale", "Lescale");
-  const Spectrum emission = p.colour("Le", Spectrum{}, ColourUse::light);
-  const Parameter* scale = p.find(ParameterType::float_, "Lescale");
-  double factor = 1;
-  if (scale && scale->numbers.size() > 1)
-    p.value_error(*scale, 0,
-                  fmt::format("takes one value, found {}: emission that varies in space is not supported yet",
-                              scale->numbers.size()));
-  else
-    factor = p.number("Lescale", 1, Range::at_least(0));
-  medium.emission = scaled(p, factor, emission, "Le");
-}
-
-// Fire from temperatures is left out, and the rest of the medium rendered.
-void warn_of_temperature(ParameterList& p) {
-  p.warn({"string temperaturename", "float temperatureoffset", "float temperaturecutoff", "float temperaturescale",
-          "float temperature"},
-         "has no effect: emission by temperature is not supported yet");
 }
 
 // The phase function's name and its own parameters, from the kernel's tables; without a name henyey_greenstein.
@@ -105,51 +110,38 @@ void read_grid_settings(ParameterList& p, MediumDescription& medium) {
   medium.storage_bits = static_cast<int>(bits);
 }
 
-// The densities, whose number must be that of the cells.
-void read_density(ParameterList& p, UniformGridMedium& grid) {
-  p.require(ParameterType::float_, "density");
-  Parameter* density = p.find(ParameterType::float_, "density");
-  if (!density) return;
-  const std::vector<double>& values = density->numbers;
-  const std::int64_t cells = std::int64_t{grid.resolution[0]} * grid.resolution[1] * grid.resolution[2];
-  if (static_cast<std::int64_t>(values.size()) != cells) {
-    p.value_error(*density, 0,
-                  fmt::format("must have nx ny nz = {} x {} x {} = {} values, found {}", grid.resolution[0],
-                              grid.resolution[1], grid.resolution[2], cells, values.size()));
-    return;
+// The box from p0 to p1, in whichever order they are.
+void read_box(ParameterList& p, Vector3& lo, Vector3& hi) {
+  const Vector3 p0 = p.triple(ParameterType::point3, "p0", {0, 0, 0});
+  const Vector3 p1 = p.triple(ParameterType::point3, "p1", {1, 1, 1});
+  for (int axis = 0; axis < 3; ++axis) {
+    lo[axis] = std::min(p0[axis], p1[axis]);
+    hi[axis] = std::max(p0[axis], p1[axis]);
+    if (p0[axis] == p1[axis])
+      p.error(p.place(), fmt::format("the box of {} is flat: p0 and p1 have the same {}", p.owner(), "xyz"[axis]));
   }
-  const auto negative = std::find_if(values.begin(), values.end(), [](double v) { return v < 0; });
-  if (negative != values.end())
-    p.value_error(*density, static_cast<std::size_t>(negative - values.begin()),
-                  fmt::format("must not be negative, found {}", *negative));
-  grid.density.resize(values.size());
-  std::transform(values.begin(), values.end(), grid.density.begin(), [](double v) { return static_cast<float>(v); });
-  density->numbers = {};
+}
+
+std::array<int, 3> read_resolution(ParameterList& p) {
+  std::array<int, 3> resolution{};
+  const char* const names[] = {"nx", "ny", "nz"};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    resolution[axis] = static_cast<int>(p.integer(names[axis], 1, 1, max_voxels_along_axis));
+  return resolution;
 }
 
 UniformGridMedium read_uniform_grid(ParameterList& p) {
   UniformGridMedium grid;
-  const char* const names[] = {"nx", "ny", "nz"};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    grid.resolution[axis] = static_cast<int>(p.integer(names[axis], 1, 1, max_voxels_along_axis));
-  const Vector3 p0 = p.triple(ParameterType::point3, "p0", {0, 0, 0});
-  const Vector3 p1 = p.triple(ParameterType::point3, "p1", {1, 1, 1});
-  for (int axis = 0; axis < 3; ++axis) {
-    grid.p0[axis] = std::min(p0[axis], p1[axis]);
-    grid.p1[axis] = std::max(p0[axis], p1[axis]);
-    if (p0[axis] == p1[axis])
-      p.error(p.place(), fmt::format("the box of {} is flat: p0 and p1 have the same {}", p.owner(), "xyz"[axis]));
-  }
-  read_density(p, grid);
-  warn_of_temperature(p);
+  grid.resolution = read_resolution(p);
+  read_box(p, grid.p0, grid.p1);
+  p.require(ParameterType::float_, "density");
+  grid.density = read_cells(p, "density", grid.resolution, Range::at_least(0));
   return grid;
 }
 
-// Kinds that have a temperature beside their density are made as files; a medium has one grid.
 ProceduralMedium read_procedural(ParameterList& p) {
   std::vector<std::string_view> names;
-  for (const ProceduralKind& kind : procedural_kinds)
-    if (!kind.has_temperature) names.push_back(kind.name);
+  for (const ProceduralKind& kind : procedural_kinds) names.push_back(kind.name);
   const auto kind = static_cast<ProceduralName>(p.choice("kind", names, 0));
   Procedural procedural = usual_procedural(kind);
   procedural.size = static_cast<int>(p.integer("size", procedural.size, min_procedural_size, max_procedural_size));
@@ -161,6 +153,58 @@ ProceduralMedium read_procedural(ParameterList& p) {
         p.number(parameter.name, static_cast<double>(parameter.fallback), Range::from_to(parameter.lo, parameter.hi)));
   }
   return {procedural};
+}
+
+// With the medium's own coefficients, which multiply those of the cells.
+// Triples; what lies outside Rec.709 is cut at 0.
+void to_rec709(const Matrix3& matrix, std::vector<float>& cells) {
+  for (std::size_t i = 0; i + 2 < cells.size(); i += 3) {
+    const Vector3 rgb = matrix * Vector3{static_cast<double>(cells[i]), static_cast<double>(cells[i + 1]),
+                                         static_cast<double>(cells[i + 2])};
+    for (int c = 0; c < 3; ++c) cells[i + static_cast<std::size_t>(c)] = std::max(0.0f, static_cast<float>(rgb[c]));
+  }
+}
+
+RgbGridMedium read_rgb_grid(ParameterList& p, MediumDescription& medium) {
+  RgbGridMedium grid;
+  grid.resolution = read_resolution(p);
+  read_box(p, grid.p0, grid.p1);
+  const auto read = [&](std::string_view name, Whites whites) {
+    const Parameter* given = p.find(ParameterType::rgb, name);
+    const ColourSpace space = given ? given->space : ColourSpace::srgb;
+    std::vector<float> cells = read_cells(p, name, grid.resolution, Range::at_least(0), ParameterType::rgb);
+    if (space != ColourSpace::srgb) to_rec709(rec709_from(space, whites), cells);
+    return cells;
+  };
+  const bool has_sigma_a = p.has(ParameterType::rgb, "sigma_a");
+  if (!has_sigma_a && !p.has(ParameterType::rgb, "sigma_s"))
+    p.error(p.place(), fmt::format("{} needs \"rgb sigma_a\" or \"rgb sigma_s\", three numbers a cell", p.owner()));
+  if (!has_sigma_a && p.has(ParameterType::rgb, "Le"))
+    p.error(p.place(), fmt::format("{} emits, sigma_a Le a unit of length: it needs \"rgb sigma_a\"", p.owner()));
+  grid.sigma_a = read("sigma_a", Whites::aligned);
+  grid.sigma_s = read("sigma_s", Whites::aligned);
+  grid.emission = read("Le", Whites::kept);
+  medium.sigma_a = medium.sigma_s = scaled(p, p.number("scale", 1, Range::at_least(0)), constant_spectrum(1), "scale");
+  medium.emission = scaled(p, p.number("Lescale", 1, Range::at_least(0)), constant_spectrum(1), "Lescale");
+  return grid;
+}
+
+CloudMedium read_cloud(ParameterList& p) {
+  NoiseCloud cloud;
+  cloud.density = p.number("density", cloud.density, Range::at_least(0));
+  cloud.wispiness = p.number("wispiness", cloud.wispiness, Range::from_to(0, 1000));
+  cloud.frequency = p.number("frequency", cloud.frequency, Range::from_to(0, 1000));
+  cloud.size = static_cast<int>(p.integer("size", cloud.size, min_procedural_size, max_procedural_size));
+  read_box(p, cloud.p0, cloud.p1);
+  // Further out float knows no fraction of a billow.
+  constexpr double most_billows = 1e5;
+  for (int axis = 0; axis < 3; ++axis)
+    if (const double far = std::max(std::abs(cloud.p0[axis]), std::abs(cloud.p1[axis]));
+        far * cloud.frequency > most_billows)
+      p.error(p.place(), fmt::format("the box of {} reaches out to {} {}, {} billows from the origin; at most {} are "
+                                     "possible: place the cloud by transformations",
+                                     p.owner(), "xyz"[axis], far, far * cloud.frequency, most_billows));
+  return {cloud};
 }
 
 }  // namespace
@@ -177,16 +221,16 @@ void Reader::make_named_medium() {
     messages_.old_spelling(directive_.place, "the medium type \"heterogeneous\" is now called \"uniformgrid\"");
     type = "uniformgrid";
   }
-  const std::vector<std::string_view> types = {"homogeneous", "uniformgrid", "nanovdb", "vdb", "vol", "procedural"};
+  const std::vector<std::string_view> types = {"homogeneous", "uniformgrid", "nanovdb", "vdb",
+                                               "vol",         "procedural",  "cloud",   "rgbgrid"};
   if (std::find(types.begin(), types.end(), type) == types.end())
-    unknown_type(p.place_of(ParameterType::string, "type"), "medium type", type, types, {"rgbgrid", "cloud"});
+    unknown_type(p.place_of(ParameterType::string, "type"), "medium type", type, types, {});
 
   MediumDescription medium;
   medium.name = name;
   medium.location = location(directive_.place);
   medium.world_from_medium = usable_ctm("the medium");
-  read_coefficients(p, medium, type == "homogeneous");
-  read_emission(p, medium);
+  if (type != "rgbgrid") read_coefficients(p, medium, type == "homogeneous");
   read_phase(p, medium);
   if (type != "homogeneous") read_grid_settings(p, medium);
   if (type == "homogeneous") {
@@ -195,11 +239,15 @@ void Reader::make_named_medium() {
     medium.kind = read_uniform_grid(p);
   } else if (type == "procedural") {
     medium.kind = read_procedural(p);
+  } else if (type == "rgbgrid") {
+    medium.kind = read_rgb_grid(p, medium);
+  } else if (type == "cloud") {
+    medium.kind = read_cloud(p);
   } else {
     p.require(ParameterType::string, "filename");
     medium.kind = FileMedium{resolve(p.string("filename", "")), p.string("gridname", "")};
-    warn_of_temperature(p);
   }
+  if (type != "rgbgrid") read_emission(p, medium);
   p.finish();
 
   if (const auto [known, is_new] = media_by_name_.try_emplace(name, scene_.media.size()); is_new)

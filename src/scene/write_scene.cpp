@@ -167,10 +167,11 @@ class Writer {
     if (moved) begin_moved(m.world_from_medium);
     line("MakeNamedMedium {}", quoted(m.name));
     std::visit([&](const auto& kind) { medium_kind(kind); }, m.kind);
-    line("  # per world unit, at density 1");
-    colour("sigma_a", m.sigma_a);
-    colour("sigma_s", m.sigma_s);
-    if (!is_zero(m.emission)) colour("Le", m.emission);
+    if (std::holds_alternative<RgbGridMedium>(m.kind)) {
+      line("  \"float scale\" {} \"float Lescale\" {}", m.sigma_a[0], m.emission[0]);
+    } else {
+      coefficients(m);
+    }
     const PhaseFunction& phase = phase_functions()[static_cast<std::size_t>(m.phase)].table;
     line("  \"string phase\" \"{}\"", phase.name);
     for (std::size_t i = 0; i < m.phase_parameters.size(); ++i)
@@ -181,6 +182,22 @@ class Writer {
     if (moved) end_block();
   }
 
+  void coefficients(const MediumDescription& m) {
+    line("  # per world unit, at density 1");
+    colour("sigma_a", m.sigma_a);
+    colour("sigma_s", m.sigma_s);
+    if (m.temperatures)
+      temperatures(*m.temperatures, m.emission[0]);
+    else if (!is_zero(m.emission))
+      colour("Le", m.emission);
+  }
+
+  void temperatures(const TemperatureScale& t, float strength) {
+    if (t != TemperatureScale{})
+      line("  \"float temperatureoffset\" {} \"float temperaturescale\" {}", t.offset, t.scale);
+    if (strength != 1) line("  \"float Lescale\" {}", strength);
+  }
+
   void medium_kind(const HomogeneousMedium&) { line("  \"string type\" \"homogeneous\""); }
   void medium_kind(const UniformGridMedium& grid) {
     line("  \"string type\" \"uniformgrid\"");
@@ -188,11 +205,15 @@ class Writer {
          grid.resolution[2]);
     line("  \"point3 p0\" [{}] \"point3 p1\" [{}]", numbers(grid.p0), numbers(grid.p1));
     list("\"float density\"", grid.density);
+    if (!grid.temperature.empty()) list("\"float temperature\"", grid.temperature);
+    if (!grid.strength.empty()) list("\"float Lescale\"", grid.strength);
   }
   void medium_kind(const FileMedium& file) {
     line("  \"string type\" \"{}\" \"string filename\" {}", suffix(file.filename) == ".vol" ? "vol" : "vdb",
          quoted(file.filename));
     if (!file.grid.empty()) line("  \"string gridname\" {}", quoted(file.grid));
+    if (file.temperature_asked_for || file.temperature_grid.empty())
+      line("  \"string temperaturename\" {}", quoted(file.temperature_grid));
   }
   void medium_kind(const ProceduralMedium& medium) {
     const Procedural& p = medium.procedural;
@@ -201,6 +222,21 @@ class Writer {
     for (std::size_t i = 0; i < p.values.size(); ++i)
       if (const std::string_view name = p.table().parameters[i].name; !name.empty())
         line("  \"float {}\" {}", name, p.values[i]);
+  }
+  void medium_kind(const RgbGridMedium& grid) {
+    line("  \"string type\" \"rgbgrid\"");
+    line("  \"integer nx\" {} \"integer ny\" {} \"integer nz\" {}", grid.resolution[0], grid.resolution[1],
+         grid.resolution[2]);
+    line("  \"point3 p0\" [{}] \"point3 p1\" [{}]", numbers(grid.p0), numbers(grid.p1));
+    if (!grid.sigma_a.empty()) list("\"rgb sigma_a\"", grid.sigma_a);
+    if (!grid.sigma_s.empty()) list("\"rgb sigma_s\"", grid.sigma_s);
+    if (!grid.emission.empty()) list("\"rgb Le\"", grid.emission);
+  }
+  void medium_kind(const CloudMedium& medium) {
+    const NoiseCloud& c = medium.cloud;
+    line("  \"string type\" \"cloud\" \"integer size\" {}", c.size);
+    line("  \"float density\" {} \"float wispiness\" {} \"float frequency\" {}", c.density, c.wispiness, c.frequency);
+    line("  \"point3 p0\" [{}] \"point3 p1\" [{}]", numbers(c.p0), numbers(c.p1));
   }
 
   void light(const LightDescription& l) {

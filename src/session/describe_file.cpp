@@ -28,6 +28,10 @@ struct DescribeMediumKind {
   std::string operator()(const ProceduralMedium& m) const {
     return fmt::format("procedural {} of {} voxels", m.procedural.table().name, m.procedural.size);
   }
+  std::string operator()(const RgbGridMedium& m) const {
+    return fmt::format("coloured grid of {} x {} x {} voxels", m.resolution[0], m.resolution[1], m.resolution[2]);
+  }
+  std::string operator()(const CloudMedium& m) const { return fmt::format("noise cloud of {} voxels", m.cloud.size); }
 };
 
 struct DescribeLight {

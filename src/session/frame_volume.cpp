@@ -105,7 +105,9 @@ MediumDescription make_medium(const std::string& path, const VolumeGrid& grid, d
   medium.sigma_a = constant_spectrum(static_cast<float>((1 - albedo) * sigma_t));
   medium.phase = phase_kind("henyey_greenstein");
   medium.phase_parameters = {mean_cosine};
-  medium.kind = FileMedium{std::filesystem::absolute(path).lexically_normal().string(), grid.name};
+  medium.kind = FileMedium{std::filesystem::absolute(path).lexically_normal().string(), grid.name, "temperature"};
+  medium.temperatures = TemperatureScale{};
+  medium.emission = constant_spectrum(1);
   return medium;
 }
 

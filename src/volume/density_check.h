@@ -31,7 +31,7 @@ class DensityCheck {
   void finish(const std::string& file, const std::string& grid_name) const {
     if (!failed()) return;
     throw InputError(file,
-                     fmt::format("grid \"{}\" is no density: {} of its values are negative or not finite, the "
+                     fmt::format("grid \"{}\" cannot be rendered: {} of its values are negative or not finite, the "
                                  "first {} at voxel ({}, {}, {})",
                                  grid_name, count_, first_value_, first_voxel_[0], first_voxel_[1], first_voxel_[2]));
   }

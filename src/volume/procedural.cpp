@@ -23,10 +23,15 @@ VolumeGrid procedural_density(const Procedural& procedural, Storage storage, int
   return make_cloud(procedural, storage, threads);
 }
 
+VolumeGrid procedural_temperature(const Procedural& procedural, Storage storage, int threads) {
+  if (!procedural.table().has_temperature) throw std::invalid_argument("a kind without temperatures");
+  return make_fire_temperature(procedural, storage, threads);
+}
+
 std::vector<VolumeGrid> procedural_grids(const Procedural& procedural, Storage storage, int threads) {
   std::vector<VolumeGrid> grids;
   grids.push_back(procedural_density(procedural, storage, threads));
-  if (procedural.table().has_temperature) grids.push_back(make_fire_temperature(procedural, storage, threads));
+  if (procedural.table().has_temperature) grids.push_back(procedural_temperature(procedural, storage, threads));
   return grids;
 }
 

@@ -15,6 +15,9 @@ namespace brume {
 // max_procedural_size.
 VolumeGrid procedural_density(const Procedural& procedural, Storage storage, int threads);
 
+// Its temperatures in kelvin, 0 where nothing is hot; only of kinds that have them.
+VolumeGrid procedural_temperature(const Procedural& procedural, Storage storage, int threads);
+
 // All of its grids: "density" and, where the kind has it, "temperature", in kelvin and 0 where nothing is hot.
 std::vector<VolumeGrid> procedural_grids(const Procedural& procedural, Storage storage, int threads);
 
@@ -24,6 +27,9 @@ VolumeGrid make_smoke(const Procedural& procedural, Storage storage, int threads
 VolumeGrid make_fog(const Procedural& procedural, Storage storage, int threads);    // box +-(1, 0.2, 1)
 VolumeGrid make_fire(const Procedural& procedural, Storage storage, int threads);   // box +-(0.5, 1, 0.5)
 VolumeGrid make_fire_temperature(const Procedural& procedural, Storage storage, int threads);
+
+// pbrt's noise cloud, in voxels that fill its box exactly.
+VolumeGrid make_noise_cloud(const NoiseCloud& cloud, Storage storage, int threads);
 
 // A ball of noise in the box [-1, 1]^3 of medium space, in size^3 voxels, a tenth of which hold something; densities in
 // [0, 1]. Keeps all values as floats while it is made.

@@ -117,4 +117,13 @@ VolumeGrid read_volume(const std::string& path, std::size_t index, Storage stora
   return read_grid(format, path, bytes, format.list(path, bytes), index, storage);
 }
 
+std::optional<VolumeGrid> find_volume(const std::string& path, const std::string& name, Storage storage) {
+  const Format& format = format_of(path);
+  const std::string bytes = read_file(path);
+  const std::vector<GridInfo> grids = format.list(path, bytes);
+  const std::size_t found = find_grid(grids, name);
+  if (found == grids.size() || !grids[found].renderable) return std::nullopt;
+  return format.read(path, bytes, found, storage);
+}
+
 }  // namespace brume

@@ -1,6 +1,7 @@
 // Volume files: .vdb (OpenVDB), .nvdb (NanoVDB) and .vol (Mitsuba).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,5 +40,8 @@ std::vector<GridInfo> list_grids(const std::string& path);
 VolumeGrid read_volume(const std::string& path, const std::string& name, Storage storage);
 // The grid that list_grids has at `index`.
 VolumeGrid read_volume(const std::string& path, std::size_t index, Storage storage);
+
+// The grid of that name, if there is one that can be rendered.
+std::optional<VolumeGrid> find_volume(const std::string& path, const std::string& name, Storage storage);
 
 }  // namespace brume

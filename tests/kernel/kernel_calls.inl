@@ -110,6 +110,19 @@ inline void call_cell_mean_linear(const F* in, F* out, const TestGrid& g) {
   const Cell cell = grid_cell(call_grid(g), x, y, z);
   out[0] = cell_mean_linear(cell, x, y, z, call_vec3(in), call_vec3(in + 3), F(0.0f), in[6]);
 }
+// With the grid, turned a little, as temperature and as strength.
+inline void call_emission_factor(const F* in, F* out, const TestGrid& g) {
+  const PlacedGrid placed = {
+      call_grid(g), {0.9f, 0.1f, 0, 1, -0.1f, 0.9f, 0, 2, 0, 0, 1, -1}, {0, 0, 0}, {20, 17, 19}, true};
+  const vec3 factor = emission_factor({true, true, placed, placed, 0.1f, 9000.0f, g.blackbody}, call_vec3(in));
+  out[0] = factor.x;
+  out[1] = factor.y;
+  out[2] = factor.z;
+}
+
+inline void call_emission_along_flights(const F* in, F* out, const TestGrid&) {
+  out[0] = emission_along_flights(in[0], 0.6f);
+}
 
 #define PHASE(name)                                                             \
   inline void call_##name##_eval(const F* in, F* out, const TestGrid&) {        \
@@ -146,6 +159,7 @@ constexpr KernelCall kernel_calls[] = {
     CALL(atan_turns, 1, 1),       CALL(random_words, 4, 4),
     CALL(majorant_walk, 6, 24),   CALL(grid_stochastic, 5, 1),
     CALL(ball_span, 6, 5),        CALL(cone_falloff, 3, 1),
+    CALL(emission_factor, 3, 3),  CALL(emission_along_flights, 1, 1),
 #include "kernel/phase_list.inl"
 };
 #undef PHASE

@@ -179,6 +179,48 @@ void add_sets_of_media(std::vector<AgreementScene>& all) {
                                                     box_shape({0.2, -1, -1}, {1, 1, 1}, "ball")})});
 }
 
+// Flames, thin and thick, with other media in and about them; all of their light comes from temperatures.
+void add_fire(std::vector<AgreementScene>& all) {
+  const auto fire = [](float sigma_a, float sigma_s, float strength) {
+    MediumDescription m = homogeneous_medium("fire", sigma_a, sigma_s);
+    m.kind = ProceduralMedium{usual_procedural(ProceduralName::fire, 40, 1)};
+    m.temperatures = TemperatureScale{};
+    m.emission = constant_spectrum(strength);
+    return m;
+  };
+  SceneDescription s = view_of({fire(1, 0.5f, 3)}, {free_volume("fire")});
+  s.camera.fov = 16;
+  s.lights.clear();
+  all.push_back({"fire", s});
+  s.media[0] = fire(20, 40, 1);
+  s.media[0].linear_interpolation = false;
+  s.integrator.max_depth = 4;
+  all.push_back({"thick_fire", s});
+  s = view_of({fire(4, 2, 1), coloured(smoke("a", 0, 0), red, blue)},
+              {free_volume("fire"), free_volume("a"), ground()});
+  s.media[1].emission = Spectrum{{0.1f, 0.2f, 0.4f}};
+  s.integrator.max_depth = 3;
+  all.push_back({"fire_in_smoke", s});
+}
+
+// Coefficients and emission that vary in each channel; free, and bounded by glass within a fog that it displaces.
+void add_rgb_grids(std::vector<AgreementScene>& all) {
+  MediumDescription coloured = homogeneous_medium("coloured", 1, 1);
+  const std::array<int, 3> cells{2, 3, 4};
+  RgbGridMedium grid{cells, {-1, -1, -1}, {1, 1, 1}, noise({3 * 2, 3, 4}, 3), noise({3 * 2, 3, 4}, 4), {}};
+  for (float& s : grid.sigma_s) s *= 4;
+  for (std::size_t i = 0; i < grid.sigma_a.size(); ++i) grid.emission.push_back(i % 5 == 0 ? 0.01f : 0);
+  coloured.kind = grid;
+  all.push_back({"rgb_grid", view_of({coloured}, {free_volume("coloured")})});
+  SceneDescription s =
+      view_of({coloured, homogeneous_medium("fog", 0.05f, 0.2f)},
+              {with_material(sphere_shape({0, 0, 0}, 0.9, "coloured", "fog"), DielectricMaterial{1.3f}),
+               sphere_shape({0, 0, 0}, 2, "fog"), ground()});
+  s.lights = {sky(1)};
+  s.integrator.max_depth = 8;
+  all.push_back({"rgb_grid_in_glass", s});
+}
+
 void add_colours(std::vector<AgreementScene>& all) {
   const auto grid = smoke("a", 0, 0), other = turned(smoke("b", 0, 0, 7), 40);
   const auto ball = homogeneous_medium("ball", 0, 0);
@@ -210,6 +252,7 @@ void add_colours(std::vector<AgreementScene>& all) {
   s.media[0].emission = s.media[1].emission = Spectrum{{3, 2, 1}};
   s.lights.clear();
   all.push_back({"emission", s});
+  add_fire(all);
 }
 
 void add_surfaces(std::vector<AgreementScene>& all) {
@@ -312,6 +355,7 @@ std::vector<AgreementScene> agreement_scenes() {
   add_phase_functions(all);
   add_sets_of_media(all);
   add_colours(all);
+  add_rgb_grids(all);
   add_surfaces(all);
   add_textured_instances(all);
   add_depths(all);

@@ -98,6 +98,7 @@ TEST(AgreementTwins, FaultsAreFound) {
   expect_fault_found("chromatic_grid",
                      [](SceneDescription& s) { std::swap(s.media[0].sigma_s[0], s.media[0].sigma_s[1]); });
   expect_fault_found("emission", [](SceneDescription& s) { s.media[1].emission = 0.9f * s.media[1].emission; });
+  expect_fault_found("fire", [](SceneDescription& s) { s.media[0].temperatures->scale = 1.1; });
   expect_fault_found("diffuse_surfaces", [](SceneDescription& s) { s.integrator.max_depth = 2; });
   expect_fault_found("textured_instances",
                      [](SceneDescription& s) { std::get<MixTexture>(s.textures[2].kind).amount = Spectrum{}; });

@@ -1,8 +1,11 @@
 // Point sources in an infinite medium, single scattering, emission, absorption, the white furnace.
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 
 #include "render/cases.h"
+#include "scene/colour.h"
 
 namespace brume {
 
@@ -25,6 +28,13 @@ constexpr Fault backwards{"mu_of_the_wrong_sign", [](SceneDescription& s) { s.me
 constexpr Fault absorption{"a_hundredth_of_what_scatters_absorbed", [](SceneDescription& s) {
                              for (MediumDescription& m : s.media) m.sigma_a = m.sigma_a + 0.01f * m.sigma_s;
                            }};
+
+constexpr Fault hotter{"temperatures_a_hundredth_higher", [](SceneDescription& s) {
+                         for (float& t : std::get<UniformGridMedium>(s.media[0].kind).temperature) t *= 1.01f;
+                       }};
+constexpr Fault dimmer{"emission_a_twentieth_weaker", [](SceneDescription& s) {
+                         for (float& v : std::get<UniformGridMedium>(s.media[0].kind).strength) v *= 0.95f;
+                       }};
 
 // The fluence of an isotropic point source of unit power in an infinite medium of extinction 1, integrated over shells:
 // by reciprocity what its place sees, in any direction, of a shell that emits 1 per unit of length. Three shells emit,
@@ -126,6 +136,57 @@ void add_absorption_and_emission(std::vector<Case>& all) {
   all.push_back({"21_absorber_over_a_floor", s, {{0.36787944, 1e-5}}, extinction});
 }
 
+// A black body's gas two units deep, whose absorption differs between channels: sigma_a Le over the way is
+// Le (1 - exp(-2 sigma_a)). Then two layers, the nearer without emission.
+void add_black_bodies(std::vector<Case>& all) {
+  const Spectrum sigma_a{{0.5f, 0.7f, 1}};
+  SceneDescription s = needle_scene({0.1, 0.2, -5});
+  s.media = {grid_medium("fire", {-1, -1, 0}, {1, 1, 2}, {3, 5, 16}, std::vector<float>(240, 1), 0, 0)};
+  s.media[0].sigma_a = sigma_a;
+  s.media[0].linear_interpolation = false;
+  s.media[0].temperatures = TemperatureScale{-100, 2};
+  s.media[0].emission = constant_spectrum(3);
+  s.shapes = {free_volume("fire")};
+  auto& grid = std::get<UniformGridMedium>(s.media[0].kind);
+  grid.temperature.assign(240, 1900);  // 4000 K
+  const Spectrum le = 3 * blackbody_emission(4000);
+  const auto expected = [&](auto layer) {
+    std::vector<Expected> e;
+    for (int c = 0; c < channel_count; ++c) {
+      const double radiance = layer(static_cast<double>(sigma_a[c])) * static_cast<double>(le[c]);
+      e.push_back({radiance, 1e-3 * radiance});  // of the table of colours
+    }
+    return e;
+  };
+  all.push_back({"black_body", s, expected([](double sigma) { return 1 - std::exp(-2 * sigma); }), hotter});
+  grid.strength.assign(240, 0);
+  std::fill(grid.strength.begin() + 120, grid.strength.end(), 2.0f);
+  all.push_back({"black_body_behind_an_absorber", s,
+                 expected([](double sigma) { return 2 * std::exp(-sigma) * (1 - std::exp(-sigma)); }), dimmer});
+}
+
+// A cell that absorbs and emits, each channel in its own way, before a sky of radiance 1.
+void add_rgb_cell(std::vector<Case>& all) {
+  const std::array<float, 3> sigma_a{0.2f, 0.5f, 0.8f}, le{0.01f, 0.002f, 0.005f};
+  SceneDescription s = needle_scene({0.1, 0.2, -5});
+  s.lights = {sky(1)};
+  s.media = {homogeneous_medium("colours", 2, 2)};
+  s.media[0].linear_interpolation = false;
+  s.media[0].emission = constant_spectrum(3);
+  s.media[0].kind = RgbGridMedium{{1, 1, 1}, {-1, -1, 0},           {1, 1, 1}, {sigma_a.begin(), sigma_a.end()},
+                                  {0, 0, 0}, {le.begin(), le.end()}};
+  s.shapes = {free_volume("colours")};
+  std::vector<Expected> expected;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double passed = std::exp(-2 * static_cast<double>(sigma_a[c]));
+    expected.push_back({passed + (1 - passed) * 3 * 106.856895 * static_cast<double>(le[c]), 1e-5});
+  }
+  all.push_back({"rgb_cell", s, expected, {"channels_exchanged", [](SceneDescription& scene) {
+                                             auto& grid = std::get<RgbGridMedium>(scene.media[0].kind);
+                                             std::swap(grid.sigma_a[0], grid.sigma_a[1]);
+                                           }}});
+}
+
 // Uniform surroundings and no absorption: radiance 1 everywhere, whatever stands there.
 void add_furnace(std::vector<Case>& all) {
   std::vector<float> density(6 * 5 * 4);
@@ -150,6 +211,8 @@ std::vector<Case> transport_cases() {
   add_point_sources(all);
   add_single_scattering(all);
   add_absorption_and_emission(all);
+  add_black_bodies(all);
+  add_rgb_cell(all);
   add_furnace(all);
   return all;
 }

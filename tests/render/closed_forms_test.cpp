@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "render/estimates.h"
+#include "scene/colour.h"
 
 namespace brume {
 namespace {
@@ -114,6 +115,23 @@ TEST(BeerLambert, OneMeanFreePath) {
 
     s.shapes = {box_shape({-2, -2, -2}, {2, 2, 2}, "absorber")};
     EXPECT_NEAR(radiance(s), expected, 1e-5) << "grid in a larger box, " << method.name;
+  }
+}
+
+// The near half of a gas at 1800 K, the far half at 2500 K: Le (1 - exp(-tau)) of each, the far one's through the near.
+TEST(Emission, OfTwoLayersOfBlackBodies) {
+  for (const Method& method : methods) {
+    SceneDescription s = needle_scene({0.1, 0.2, -5});
+    set_method(s, method, 0.001);
+    s.media = {grid_medium("fire", {-1, -1, 0}, {1, 1, 2}, {1, 1, 2}, {1, 2}, 0.7f, 0)};
+    s.media[0].linear_interpolation = false;
+    s.media[0].temperatures = TemperatureScale{};
+    s.media[0].emission = constant_spectrum(1);
+    std::get<UniformGridMedium>(s.media[0].kind).temperature = {1800, 2500};
+    s.shapes = {free_volume("fire")};
+    const float expected = blackbody_emission(1800)[0] * (1 - std::exp(-0.7f)) +
+                           blackbody_emission(2500)[0] * std::exp(-0.7f) * (1 - std::exp(-1.4f));
+    EXPECT_NEAR(radiance(s), expected, 1e-3 * expected) << method.name;
   }
 }
 

@@ -29,7 +29,7 @@ Spectrum light_of(const std::string& parameters) {
 
 Spectrum reflectance_of(const std::string& text) {
   const SceneDescription s = world_of(text + " Shape \"sphere\"");
-  return std::get<DiffuseMaterial>(s.shapes.at(0).material).reflectance;
+  return std::get<DiffuseMaterial>(s.shapes.at(0).material).reflectance.value;
 }
 
 // Catches matching functions without the white that they are taken relative to: as the fit has it, D65 comes out by

@@ -20,6 +20,7 @@ void expect_equal(const MediumDescription& a, const MediumDescription& b) {
   EXPECT_EQ(a.sigma_a, b.sigma_a);
   EXPECT_EQ(a.sigma_s, b.sigma_s);
   EXPECT_EQ(a.emission, b.emission);
+  EXPECT_EQ(a.temperatures, b.temperatures);
   EXPECT_EQ(a.phase, b.phase);
   EXPECT_EQ(a.phase_parameters, b.phase_parameters);
   EXPECT_EQ(a.linear_interpolation, b.linear_interpolation);
@@ -31,13 +32,29 @@ void expect_equal(const MediumDescription& a, const MediumDescription& b) {
     EXPECT_EQ(grid->p0, other.p0);
     EXPECT_EQ(grid->p1, other.p1);
     EXPECT_EQ(grid->density, other.density);
+    EXPECT_EQ(grid->temperature, other.temperature);
+    EXPECT_EQ(grid->strength, other.strength);
   }
   if (const auto* file = std::get_if<FileMedium>(&a.kind)) {
     EXPECT_EQ(file->filename, std::get<FileMedium>(b.kind).filename);
-    EXPECT_EQ(file->grid, std::get<FileMedium>(b.kind).grid);
+    const auto& other = std::get<FileMedium>(b.kind);
+    EXPECT_EQ(file->grid, other.grid);
+    EXPECT_EQ(file->temperature_grid, other.temperature_grid);
+    EXPECT_EQ(file->temperature_asked_for, other.temperature_asked_for);
   }
   if (const auto* made = std::get_if<ProceduralMedium>(&a.kind)) {
     EXPECT_EQ(made->procedural, std::get<ProceduralMedium>(b.kind).procedural);
+  }
+  if (const auto* coloured = std::get_if<RgbGridMedium>(&a.kind)) {
+    const auto& other = std::get<RgbGridMedium>(b.kind);
+    EXPECT_EQ(coloured->resolution, other.resolution);
+    EXPECT_EQ(coloured->p1, other.p1);
+    EXPECT_EQ(coloured->sigma_a, other.sigma_a);
+    EXPECT_EQ(coloured->sigma_s, other.sigma_s);
+    EXPECT_EQ(coloured->emission, other.emission);
+  }
+  if (const auto* noise = std::get_if<CloudMedium>(&a.kind)) {
+    EXPECT_EQ(noise->cloud, std::get<CloudMedium>(b.kind).cloud);
   }
 }
 
@@ -268,14 +285,48 @@ TEST(WriteScene, EverySamplerAndFilterReadsBackTheSame) {
 
 TEST(WriteScene, EveryProceduralMediumReadsBackTheSame) {
   SceneDescription scene;
-  for (const ProceduralName name : {ProceduralName::cloud, ProceduralName::smoke, ProceduralName::fog}) {
-    Procedural procedural = usual_procedural(name, 50, 3);
-    for (std::size_t i = 0; i < procedural.values.size(); ++i)
-      if (!procedural.table().parameters[i].name.empty()) procedural.values[i] = 0.3f + 0.1f * static_cast<float>(i);
+  for (std::size_t kind = 0; kind < procedural_kinds.size(); ++kind) {
+    Procedural procedural = usual_procedural(static_cast<ProceduralName>(kind), 50, 3);
+    for (std::size_t i = 0; i < procedural.values.size(); ++i) procedural.values[i] *= 0.9f;
     scene.media.push_back({});
     scene.media.back().name = procedural.table().name;
     scene.media.back().kind = ProceduralMedium{procedural};
+    if (!procedural.table().has_temperature) continue;
+    scene.media.back().temperatures = TemperatureScale{100, 1.5};
+    scene.media.back().emission = constant_spectrum(0.7f);
   }
+  scene.media.push_back({});
+  scene.media.back().name = "noise";
+  scene.media.back().kind = CloudMedium{{2, 0.5, 3, {-1, 0, 0}, {1, 0.5, 2}, 40}};
+  expect_round_trip(scene);
+}
+
+TEST(WriteScene, EveryWayToEmitReadsBackTheSame) {
+  SceneDescription scene;
+  const auto add = [&](const std::string& name, auto kind) -> MediumDescription& {
+    MediumDescription& m = scene.media.emplace_back();
+    m.name = name;
+    m.kind = std::move(kind);
+    m.emission = constant_spectrum(1);
+    return m;
+  };
+  add("glows", HomogeneousMedium{}).emission = Spectrum{{1, 0.5f, 0.2f}};
+  UniformGridMedium grid{{2, 1, 1}, {0, 0, 0}, {1, 1, 1}, {1, 2}, {}, {0.5f, 3}};
+  add("from place to place", grid);
+  grid.temperature = {-20.5f, 1500};
+  add("by temperature from place to place", grid).temperatures = TemperatureScale{-3, 2};
+  grid.strength.clear();
+  MediumDescription& hot = add("by temperature", grid);
+  hot.temperatures = TemperatureScale{};
+  hot.emission = constant_spectrum(2.5f);
+  MediumDescription& coloured =
+      add("coloured", RgbGridMedium{{2, 1, 1}, {0, 0, 0}, {1, 1, 1}, {1, 2, 3, 4, 5, 6}, {}, {0.5f, 0, 0, 1, 2, 3}});
+  coloured.emission = constant_spectrum(0.25f);
+  coloured.sigma_a = coloured.sigma_s = constant_spectrum(3);
+  add("a file's", FileMedium{"/a.vdb", "", "temperature", false}).temperatures = TemperatureScale{};
+  add("a file's by name", FileMedium{"/a.vdb", "density", "heat", true}).temperatures = TemperatureScale{0, 1000};
+  add("a file's, not used", FileMedium{"/a.vdb", "", "", false}).emission = {};
+  add("a file with Le", FileMedium{"/a.vdb", "", "", false}).emission = Spectrum{{1, 2, 3}};
   expect_round_trip(scene);
 }
 

@@ -105,6 +105,33 @@ TEST_P(ProceduralKinds, AnySizeWorksWithinTheLimits) {
   EXPECT_THROW(procedural_density(usual(max_procedural_size + 1, 0), Storage::u8, 1), std::invalid_argument);
 }
 
+// pbrt's cloud: full at the bottom, nothing at the top, billows between; its voxels fill the box to the corners.
+TEST(NoiseCloud, IsFullBelowAndGoneAbove) {
+  NoiseCloud cloud;
+  cloud.p0 = {-1, 0, 0};
+  cloud.p1 = {1, 1, 0.5};
+  cloud.size = 40;
+  const VolumeGrid grid = make_noise_cloud(cloud, Storage::f32, 2);
+  EXPECT_EQ(grid.bricks.voxels, (std::array<int, 3>{40, 20, 10}));
+  EXPECT_EQ(grid.medium_from_index.point({0, 0, 0}), cloud.p0);
+  EXPECT_EQ(grid.medium_from_index.point({40, 20, 10}), cloud.p1);
+  EXPECT_EQ(grid.support, Support::cut);
+  const kernel::BrickGrid view = kernel_view(grid.bricks);
+  std::array<double, 20> layers{};
+  for (int y = 0; y < 20; ++y)
+    for (int z = 0; z < 10; ++z)
+      for (int x = 0; x < 40; ++x)
+        layers[static_cast<std::size_t>(y)] += static_cast<double>(kernel::grid_voxel(view, x, y, z)) / 400;
+  EXPECT_NEAR(layers[0], 0.95, 0.04);  // 2 (1/2 - y) of it, at least
+  EXPECT_LT(layers[19], 0.1);
+  for (std::size_t y = 1; y < 20; ++y) EXPECT_LT(layers[y], layers[y - 1] + 0.1) << y;
+  EXPECT_GT(grid.bricks.max_value, 0.9f);
+  const VolumeGrid again = make_noise_cloud(cloud, Storage::f32, 1);
+  EXPECT_EQ(again.bricks.words, grid.bricks.words);
+  cloud.wispiness = 0;
+  EXPECT_NE(make_noise_cloud(cloud, Storage::f32, 1).bricks.words, grid.bricks.words);
+}
+
 TEST(ProceduralFire, IsHotWhereItBurns) {
   Procedural fire = usual_procedural(ProceduralName::fire, 48);
   fire.values[1] = 1500;
