@@ -83,6 +83,7 @@ void Compiler::add_integrator() {
   to.max_depth = from.max_depth;
   to.dda = from.traversal == Traversal::dda;
   to.step = from.step;
+  to.cached_shadows = from.name == "classic" && from.volume_shadows == VolumeShadows::cached;
   to.shadow_samples = from.shadow_samples;
   const auto place = [&](float base, float spread) {
     to.placement_base = base;

@@ -204,8 +204,8 @@ struct CompiledLight {
   LightCone cone;        // point
   Vector3 direction_to;  // distant: unit, towards the light
   Spectrum value;        // point: intensity on its axis; distant: irradiance of a facing surface; infinite and area:
-                   // radiance; image: a factor
-  float chance = 0;               // with which it is chosen among all lights (see light_cdf)
+                         // radiance; image: a factor
+  float chance = 0;      // with which it is chosen among all lights (see light_cdf)
   std::int32_t environment = -1;  // image: in environments
 
   // Area: its shape, as CompiledShape has it, and its area, which for a quadric is that before the affine map.
@@ -244,6 +244,7 @@ struct CompiledIntegrator {
   bool dda = false;
   float placement_base = 0.5f, placement_spread = 0;  // see kernel/march.inl
   double step = 0;                                    // world units; 0: each medium's default
+  bool cached_shadows = false;                        // of media, for single scattering: see render/shadow_cache.h
   int shadow_samples = 1;                             // shadow rays from a surface to a light with a size
 };
 

@@ -33,10 +33,11 @@ RandomStream::Pair stratified(RandomStream::Pair numbers, int i, int n) {
 }  // namespace
 
 ClassicIntegrator::ClassicIntegrator(const CompiledScene& scene, const Intersector& intersector,
-                                     const MediaAlongRay& media)
+                                     const MediaAlongRay& media, const ShadowCache* cache)
     : scene_(scene),
       intersector_(intersector),
       media_(media),
+      cache_(cache),
       emission_fields_(emission_fields(scene)),
       visibility_(scene, intersector, media) {}
 
@@ -271,15 +272,15 @@ Spectrum ClassicIntegrator::in_scattering(const Ray& ray, RandomStream& random) 
   Spectrum result;
   if (points_.empty()) return result;
   for (const Scattering& s : scatterings_) result = result + scene_.ambient * s.weight;
-  for (const CompiledLight& light : scene_.lights) {
+  for (std::size_t light = 0; light < scene_.lights.size(); ++light) {
     light_samples_.clear();
     shadow_rays_.clear();
     for (const Point& point : points_) {
-      light_samples_.push_back(sample_light(scene_, light, point.position, nullptr, random));
+      light_samples_.push_back(sample_light(scene_, scene_.lights[light], point.position, nullptr, random));
       shadow_rays_.push_back(light_samples_.back().ray);
     }
     counts_.shadow_rays += static_cast<std::int64_t>(shadow_rays_.size());
-    visibility_.find(shadow_rays_, random, arriving_);
+    find_arriving(light, random);
     for (std::size_t i = 0; i < points_.size(); ++i) {
       // Light travels against the shadow ray, and is scattered against the camera's: the two signs cancel.
       const float mu = std::clamp(dot(shadow_rays_[i].direction, ray.direction), -1.0f, 1.0f);
@@ -291,6 +292,29 @@ Spectrum ClassicIntegrator::in_scattering(const Ray& ray, RandomStream& random) 
     }
   }
   return result;
+}
+
+// What of the light arrives at each of the points, along the shadow rays.
+void ClassicIntegrator::find_arriving(std::size_t light, RandomStream& random) {
+  if (!cache_) return visibility_.find(shadow_rays_, random, arriving_);
+  visibility_.cross_surfaces(shadow_rays_, arriving_);
+  uncached_.clear();
+  uncached_rays_.clear();
+  uncached_arriving_.clear();
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const auto first = scatterings_.begin() + static_cast<std::ptrdiff_t>(points_[i].first),
+               last = scatterings_.begin() + static_cast<std::ptrdiff_t>(points_[i].last);
+    const auto covered = std::find_if(first, last, [&](const auto& s) { return cache_->covers(light, s.medium); });
+    if (covered != last) {
+      arriving_[i] = arriving_[i] * cache_->transmittance(light, covered->medium, points_[i].position);
+      continue;
+    }
+    uncached_.push_back(i);
+    uncached_rays_.push_back(shadow_rays_[i]);
+    uncached_arriving_.push_back(arriving_[i]);
+  }
+  visibility_.cross_media(uncached_rays_, random, uncached_arriving_);
+  for (std::size_t k = 0; k < uncached_.size(); ++k) arriving_[uncached_[k]] = uncached_arriving_[k];
 }
 
 // What the surface sends back of the light that arrives directly. Of lights that have a size a rough surface's facets

@@ -26,6 +26,7 @@
 #include "image/film.h"
 #include "render/lights.h"
 #include "render/render_counts.h"
+#include "render/shadow_cache.h"
 #include "render/visibility.h"
 
 namespace brume {
@@ -33,7 +34,9 @@ namespace brume {
 // One to each worker: it keeps its arrays from sample to sample.
 class ClassicIntegrator {
  public:
-  ClassicIntegrator(const CompiledScene& scene, const Intersector& intersector, const MediaAlongRay& media);
+  // `cache` is null where shadow rays are to march through media too.
+  ClassicIntegrator(const CompiledScene& scene, const Intersector& intersector, const MediaAlongRay& media,
+                    const ShadowCache* cache);
 
   // The radiance that arrives at the ray's origin; `seen` gets what the ray meets, its depth along the ray.
   Spectrum radiance(Ray ray, RandomStream& random, Foreground& seen);
@@ -78,6 +81,7 @@ class ClassicIntegrator {
   Spectrum take_step(const Ray& ray, std::size_t step, bool scatters, Spectrum& transmittance);
   bool chosen(std::size_t first);
   Spectrum in_scattering(const Ray& ray, RandomStream& random);
+  void find_arriving(std::size_t light, RandomStream& random);
   Spectrum direct_light(const Ray& ray, const SurfaceHit& hit, RandomStream& random);
   float share(const Branch& branch, const CompiledLight& light, const SurfaceHit& hit) const;
   Spectrum background(const Branch& branch) const;
@@ -85,6 +89,7 @@ class ClassicIntegrator {
   const CompiledScene& scene_;
   const Intersector& intersector_;
   const MediaAlongRay& media_;
+  const ShadowCache* cache_;
   const std::vector<kernel::EmissionField> emission_fields_;
   Visibility visibility_;
   std::optional<kernel::vec3> too_many_media_;
@@ -102,6 +107,9 @@ class ClassicIntegrator {
   std::vector<LightSample> light_samples_;
   std::vector<Ray> shadow_rays_;
   std::vector<Spectrum> arriving_;
+  std::vector<std::size_t> uncached_;  // shadow rays,
+  std::vector<Ray> uncached_rays_;     // and what arrives along them
+  std::vector<Spectrum> uncached_arriving_;
   RenderCounts counts_;
 };
 

@@ -23,11 +23,11 @@ namespace {
 class TileRenderer {
  public:
   TileRenderer(const CompiledScene& scene, const Intersector& intersector, const MediaAlongRay& media,
-               const Filter& filter)
+               const ShadowCache* shadow_cache, const Filter& filter)
       : scene_(scene), filter_(filter) {
     switch (scene.integrator.kind) {
       case CompiledIntegrator::Kind::classic:
-        classic_.emplace(scene, intersector, media);
+        classic_.emplace(scene, intersector, media, shadow_cache);
         break;
       case CompiledIntegrator::Kind::reference:
         reference_.emplace(scene, intersector, media);
@@ -84,6 +84,7 @@ class CpuBackend : public Backend {
     filter_ = std::make_unique<Filter>(scene.filter);
     intersector_ = std::make_unique<Intersector>(scene);
     media_ = std::make_unique<MediaAlongRay>(scene, *intersector_);
+    shadow_cache_.reset();
     counts_ = {};
   }
 
@@ -96,9 +97,11 @@ class CpuBackend : public Backend {
     const int tiles_x = (film.width() + edge - 1) / edge, tiles_y = (film.height() + edge - 1) / edge;
     const int tiles = tiles_x * tiles_y;
     threads = thread_count(threads);
+    if (!fill_shadow_cache(threads, keep_going)) return false;
     std::vector<std::unique_ptr<TileRenderer>> renderers;
     for (int i = 0; i < threads; ++i)
-      renderers.push_back(std::make_unique<TileRenderer>(*scene_, *intersector_, *media_, *filter_));
+      renderers.push_back(
+          std::make_unique<TileRenderer>(*scene_, *intersector_, *media_, shadow_cache_.get(), *filter_));
     std::atomic<bool> stopped = false;
     std::atomic<int> done = 0;
     parallel_for(tiles, threads, [&](int tile, int worker) {
@@ -110,19 +113,34 @@ class CpuBackend : public Backend {
       if (worker == 0 && !keep_going(static_cast<double>(done) / tiles)) stopped = true;
     });
     for (const auto& i : renderers) counts_ += i->counts();
-    for (const auto& i : renderers)
-      if (const auto p = i->too_many_media())
-        throw InputError("scene",
-                         fmt::format("more than {} media overlap at ({}, {}, {})", max_active_media, p->x, p->y, p->z));
+    for (const auto& i : renderers) check(i->too_many_media());
     return !stopped;
   }
 
  private:
+  static void check(const std::optional<kernel::vec3>& too_many_media) {
+    if (const auto& p = too_many_media)
+      throw InputError("scene",
+                       fmt::format("more than {} media overlap at ({}, {}, {})", max_active_media, p->x, p->y, p->z));
+  }
+
+  // Once for the scene, where it asks for that. False when told to stop.
+  bool fill_shadow_cache(int threads, const std::function<bool(double fraction)>& keep_going) {
+    if (shadow_cache_ || !scene_->integrator.cached_shadows) return true;
+    bool goes_on = true;
+    auto cache = std::make_unique<ShadowCache>(*scene_, *intersector_, *media_, threads,
+                                               [&] { return goes_on = goes_on && keep_going(0); });
+    check(cache->too_many_media());
+    if (goes_on) shadow_cache_ = std::move(cache);
+    return goes_on;
+  }
+
   const CompiledScene* scene_ = nullptr;
   RenderCounts counts_;
   std::unique_ptr<Filter> filter_;
   std::unique_ptr<Intersector> intersector_;
   std::unique_ptr<MediaAlongRay> media_;
+  std::unique_ptr<ShadowCache> shadow_cache_;
 };
 
 }  // namespace

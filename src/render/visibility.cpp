@@ -36,13 +36,22 @@ Visibility::Visibility(const CompiledScene& scene, const Intersector& intersecto
                              [](const CompiledMaterial& m) { return !is_zero(m.refraction); })) {}
 
 void Visibility::find(std::span<const Ray> rays, RandomStream& random, std::vector<Spectrum>& transmittance) {
-  transmittance.assign(rays.size(), Spectrum{});
+  cross_surfaces(rays, transmittance);
+  cross_media(rays, random, transmittance);
+}
+
+void Visibility::cross_surfaces(std::span<const Ray> rays, std::vector<Spectrum>& transmittance) {
+  transmittance.resize(rays.size());
   blocked_.resize(rays.size());
   intersector_.occluded(rays, blocked_);
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    transmittance[i] = blocked_[i] == 0 ? constant_spectrum(1) : has_glass_ ? cross_glass(rays[i]) : Spectrum{};
+}
+
+void Visibility::cross_media(std::span<const Ray> rays, RandomStream& random, std::span<Spectrum> transmittance) {
   open_rays_.clear();
   open_indices_.clear();
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    transmittance[i] = blocked_[i] == 0 ? constant_spectrum(1) : has_glass_ ? cross_surfaces(rays[i]) : Spectrum{};
     if (is_zero(transmittance[i])) continue;
     open_rays_.push_back(rays[i]);
     open_indices_.push_back(i);
@@ -63,7 +72,7 @@ void Visibility::find(std::span<const Ray> rays, RandomStream& random, std::vect
 }
 
 // What the surfaces along the ray leave; 0 behind an opaque one.
-Spectrum Visibility::cross_surfaces(Ray ray) const {
+Spectrum Visibility::cross_glass(Ray ray) const {
   Spectrum left = constant_spectrum(1);
   SurfaceHit hit;
   for (int crossed = 0; intersector_.nearest_surface(ray, hit); ++crossed) {

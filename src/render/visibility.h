@@ -23,11 +23,15 @@ class Visibility {
   // transmittance[i] = the fraction of the light that crosses rays[i], per channel.
   void find(std::span<const Ray> rays, RandomStream& random, std::vector<Spectrum>& transmittance);
 
+  // The two parts of that: what surfaces leave, and that times what media leave, where it is not 0 already.
+  void cross_surfaces(std::span<const Ray> rays, std::vector<Spectrum>& transmittance);
+  void cross_media(std::span<const Ray> rays, RandomStream& random, std::span<Spectrum> transmittance);
+
   // A place where more than max_active_media media overlap, once a ray has met one.
   std::optional<kernel::vec3> too_many_media() const { return too_many_media_; }
 
  private:
-  Spectrum cross_surfaces(Ray ray) const;
+  Spectrum cross_glass(Ray ray) const;
   void add_optical_depths(int medium_index, std::span<const MediumSpan> spans, RandomStream& random);
 
   const CompiledScene& scene_;

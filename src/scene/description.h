@@ -65,6 +65,7 @@ struct CameraDescription {
 };
 
 enum class Traversal { march, dda };
+enum class VolumeShadows { march, cached };
 enum class Placement { start, random, middle, middle_random };
 
 // "classic" and "reference" are Brume's own; the others are pbrt-v4's, and "volpath" renders what they would.
@@ -77,7 +78,8 @@ struct IntegratorDescription {
   int max_depth = 5;
   Traversal traversal = Traversal::march;
   Placement placement = Placement::middle;
-  double step = 0;         // world units; 0 is the default of each medium
+  double step = 0;  // world units; 0 is the default of each medium
+  VolumeShadows volume_shadows = VolumeShadows::march;
   int shadow_samples = 1;  // classic: shadow rays from a surface to a light with a size
   Location location;
 };

@@ -149,6 +149,7 @@ void Reader::integrator() {
     i.placement = static_cast<Placement>(p.choice("placement", {"start", "random", "middle", "middle-random"},
                                                   static_cast<std::size_t>(Placement::middle)));
     i.step = p.number("step", 0, Range::at_least(0));
+    i.volume_shadows = static_cast<VolumeShadows>(p.choice("volumeshadows", {"march", "cached"}, 0));
     i.shadow_samples = static_cast<int>(p.integer("shadowsamples", 1, 1, max_shadow_samples));
   } else if (type != "reference") {
     p.rename("lightsamplestrategy", "lightsampler");

@@ -140,10 +140,12 @@ class Writer {
          filter_names[static_cast<std::size_t>(f.kind)], f.x_radius, f.y_radius, filter_parameters(f));
     const IntegratorDescription& i = scene.integrator;
     line("Integrator {} \"integer maxdepth\" {}", quoted(i.name), i.max_depth);
-    if (i.name == "classic")
+    if (i.name == "classic") {
       line("  \"string traversal\" \"{}\" \"string placement\" \"{}\" \"float step\" {} \"integer shadowsamples\" {}",
            traversal_names[static_cast<std::size_t>(i.traversal)],
            placement_names[static_cast<std::size_t>(i.placement)], i.step, i.shadow_samples);
+      line("  \"string volumeshadows\" \"{}\"", i.volume_shadows == VolumeShadows::cached ? "cached" : "march");
+    }
   }
 
   void camera(const SceneDescription& scene) {

@@ -74,12 +74,12 @@ inline TestRay make_ray(std::uint32_t index, float lo, float hi, float distance)
   if (index % 7 == 0) ray.origin = point(1, lo, hi);
   if (index % 11 == 0) ray.origin = {std::round(ray.origin.x), std::round(ray.origin.y), std::round(ray.origin.z)};
   ray.direction = point(4, lo, hi) - ray.origin;
-  if (index % 5 == 0) {  // some components 0, -0, tiny, or equal
-    const std::array<float, 6> special{0.0f, -0.0f, 1e-30f, -1e-5f, 1.0f, -1.0f};
+  if (index % 5 == 0) {  // some components 0, -0, denormal, tiny, or equal
+    const std::array<float, 7> special{0.0f, -0.0f, 1e-40f, 1e-30f, -1e-5f, 1.0f, -1.0f};
     float* components[] = {&ray.direction.x, &ray.direction.y, &ray.direction.z};
     for (std::uint32_t axis = 0; axis < 3; ++axis)
       if (uniform(7 + axis, 0, 1) < 0.6f)
-        *components[axis] = special[static_cast<std::size_t>(uniform(10 + axis, 0, 6))];
+        *components[axis] = special[static_cast<std::size_t>(uniform(10 + axis, 0, 7))];
   }
   ray.direction = ray.direction * std::exp2(uniform(13, -8, 8));
   return ray;

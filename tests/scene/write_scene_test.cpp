@@ -211,6 +211,7 @@ void expect_equal(const SceneDescription& a, const SceneDescription& b) {
   EXPECT_EQ(a.integrator.traversal, b.integrator.traversal);
   EXPECT_EQ(a.integrator.placement, b.integrator.placement);
   EXPECT_EQ(a.integrator.step, b.integrator.step);
+  EXPECT_EQ(a.integrator.volume_shadows, b.integrator.volume_shadows);
   EXPECT_EQ(a.integrator.shadow_samples, b.integrator.shadow_samples);
   expect_equal(a.camera.world_from_camera, b.camera.world_from_camera, 1e-14);
   EXPECT_EQ(a.camera.fov, b.camera.fov);
