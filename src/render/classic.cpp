@@ -77,13 +77,14 @@ Spectrum ClassicIntegrator::follow(const Branch& branch, RandomStream& random, F
   hit = facing(hit, ray.direction);
   branch_off(at_end, hit, random);
   return result +
-         at_end.throughput * (material_at(scene_, hit).ambient * scene_.ambient + direct_light(ray, hit, random));
+         at_end.throughput * (MaterialAt(scene_, hit)->ambient * scene_.ambient + direct_light(ray, hit, random));
 }
 
 // The reflected and the refracted ray; of a rough surface one that a facet reflects. A shading normal can send them to
 // the wrong side, where they are dropped.
 void ClassicIntegrator::branch_off(const Branch& branch, const SurfaceHit& hit, RandomStream& random) {
-  const CompiledMaterial material = material_at(scene_, hit);
+  const MaterialAt at(scene_, hit);
+  const CompiledMaterial& material = *at;
   const auto add = [&](const SurfaceSample& s) {
     const Spectrum throughput = branch.throughput * s.weight;
     if (max_value(throughput) < negligible_transmittance || (dot(s.direction, hit.normal) < 0) != s.transmitted) return;
@@ -321,7 +322,7 @@ void ClassicIntegrator::find_arriving(std::size_t light, RandomStream& random) {
 // reflect a part along the rays that branch off.
 Spectrum ClassicIntegrator::direct_light(const Ray& ray, const SurfaceHit& hit, RandomStream& random) {
   Spectrum result;
-  if (!scatters_widely(material_at(scene_, hit))) return result;
+  if (!scatters_widely(*MaterialAt(scene_, hit))) return result;
   const vec3 p = ray.at(hit.t), start = leave_surface(p, hit.normal, hit.t);
   light_samples_.clear();
   shadow_rays_.clear();

@@ -52,7 +52,7 @@ Spectrum ReferenceIntegrator::radiance(Ray ray, RandomStream& random, Foreground
       const auto scatter = [&](vec3 to_light, float& pdf) {
         return eval_surface(scene_, hit, ray.direction, to_light, pdf);
       };
-      if (scatters_widely(material_at(scene_, hit)))
+      if (scatters_widely(*MaterialAt(scene_, hit)))
         result = result + throughput * direct_light(ray.at(hit.t), &hit, random, scatter);
       const SurfaceSample sample = sample_surface(scene_, hit, ray.direction, random);
       throughput = throughput * sample.weight;

@@ -42,8 +42,15 @@ Spectrum fresnel(const CompiledMaterial& m, float cosine) {
   return s;
 }
 
+// Most surfaces are.
+bool is_diffuse_alone(const CompiledMaterial& m) {
+  return m.kind == CompiledMaterial::Kind::blinn_phong && is_zero(m.specular) && is_zero(m.mirror) &&
+         is_zero(m.refraction) && !is_zero(m.diffuse);
+}
+
 // In proportion to what each way sends on of light that comes along `direction`.
 Chances chances_of(const CompiledMaterial& m, const SmoothLobes& lobes, vec3 n, vec3 direction) {
+  if (is_diffuse_alone(m)) return {0, 0, 1, 0};
   Chances c{mean_of(lobes.reflected), mean_of(lobes.refracted), mean_of(m.diffuse), mean_of(highlight_colour(m))};
   const float cosine = clamped_cosine(n, -direction);
   if (m.kind == CompiledMaterial::Kind::coated_diffuse)
@@ -172,7 +179,7 @@ SmoothLobes smooth_lobes(const CompiledMaterial& m, const SurfaceHit& hit, vec3 
 }
 
 SurfaceSample sample_surface(const CompiledScene& scene, const SurfaceHit& hit, vec3 direction, RandomStream& random) {
-  SurfaceSample s = sample_material(material_at(scene, hit), hit, direction, random);
+  SurfaceSample s = sample_material(*MaterialAt(scene, hit), hit, direction, random);
   // A shading normal can send a path through a surface that it should leave, or back from one that it should cross.
   if ((dot(s.direction, hit.normal) < 0) != s.transmitted) s.weight = {};
   return s;
@@ -181,11 +188,12 @@ SurfaceSample sample_surface(const CompiledScene& scene, const SurfaceHit& hit, 
 Spectrum eval_matt(const CompiledScene& scene, const SurfaceHit& hit, vec3 direction, vec3 to_light) {
   const float cosine = cosine_on_outside(hit, to_light);
   if (cosine == 0) return {};
-  return cosine * matt_bsdf(material_at(scene, hit), hit.shading_normal, to_light, -direction);
+  return cosine * matt_bsdf(*MaterialAt(scene, hit), hit.shading_normal, to_light, -direction);
 }
 
 Spectrum eval_facets(const CompiledScene& scene, const SurfaceHit& hit, vec3 direction, vec3 to_light, float& pdf) {
-  const CompiledMaterial material = material_at(scene, hit);
+  const MaterialAt at(scene, hit);
+  const CompiledMaterial& material = *at;
   const float cosine = cosine_on_outside(hit, to_light);
   pdf = 0;
   if (material.alpha == 0 || cosine == 0) return {};
@@ -203,7 +211,8 @@ SurfaceSample sample_facets(const CompiledMaterial& material, const SurfaceHit& 
 }
 
 Spectrum eval_surface(const CompiledScene& scene, const SurfaceHit& hit, vec3 direction, vec3 to_light, float& pdf) {
-  const CompiledMaterial material = material_at(scene, hit);
+  const MaterialAt at(scene, hit);
+  const CompiledMaterial& material = *at;
   const vec3 n = hit.shading_normal;
   const float cosine = cosine_on_outside(hit, to_light);
   pdf = 0;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "compiled/compiled_scene.h"
 #include "intersect/intersector.h"
@@ -34,14 +35,28 @@ inline kernel::vec3 reflect(kernel::vec3 direction, kernel::vec3 normal) {
   return normalize(direction - (2 * dot(direction, normal)) * normal);
 }
 
-// With the values that its textures have there.
-inline CompiledMaterial material_at(const CompiledScene& scene, const SurfaceHit& hit) {
-  const auto shape = static_cast<std::size_t>(hit.shape);
-  CompiledMaterial m = scene.materials[static_cast<std::size_t>(scene.shapes[shape].material)];
-  if (m.diffuse_texture >= 0) m.diffuse = texture_reflectance(scene, m.diffuse_texture, hit);
-  if (m.ambient_texture >= 0) m.ambient = texture_reflectance(scene, m.ambient_texture, hit);
-  return m;
-}
+// The material at a hit: the scene's, or where it has textures a copy with the values that they have there.
+class MaterialAt {
+ public:
+  MaterialAt(const CompiledScene& scene, const SurfaceHit& hit)
+      : material_(
+            &scene.materials[static_cast<std::size_t>(scene.shapes[static_cast<std::size_t>(hit.shape)].material)]) {
+    if (!is_textured(*material_)) return;
+    CompiledMaterial& m = textured_.emplace(*material_);
+    if (m.diffuse_texture >= 0) m.diffuse = texture_reflectance(scene, m.diffuse_texture, hit);
+    if (m.ambient_texture >= 0) m.ambient = texture_reflectance(scene, m.ambient_texture, hit);
+    material_ = &m;
+  }
+  MaterialAt(const MaterialAt&) = delete;
+  MaterialAt& operator=(const MaterialAt&) = delete;
+
+  const CompiledMaterial& operator*() const { return *material_; }
+  const CompiledMaterial* operator->() const { return material_; }
+
+ private:
+  const CompiledMaterial* material_;
+  std::optional<CompiledMaterial> textured_;
+};
 
 // A direction in which a path goes on. The weight is f |cos| over the chance of the choice, for radiance that travels
 // against the path: refraction into a medium of index n times as great divides it by n^2. Zero where the path ends.

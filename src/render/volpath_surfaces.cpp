@@ -61,7 +61,7 @@ void VolpathIntegrator::meet_surface(std::uint32_t path) {
 SurfaceSample VolpathIntegrator::scatter_at_surface(std::uint32_t path, const SurfaceHit& hit,
                                                     RandomStream& random) const {
   const Ray ray = ray_of(path);
-  if (aim_.lights.empty() || !scatters_widely(material_at(scene_, hit)))
+  if (aim_.lights.empty() || !scatters_widely(*MaterialAt(scene_, hit)))
     return sample_surface(scene_, hit, ray.direction, random);
   const vec3 p = ray.at(hit.t);
   const auto aim = aim_at_surface(scene_, aim_, p, hit, ray.direction);
@@ -85,7 +85,7 @@ SurfaceSample VolpathIntegrator::scatter_at_surface(std::uint32_t path, const Su
 
 // Light from one light at a surface.
 void VolpathIntegrator::gather_at_surface(std::uint32_t path, const SurfaceHit& hit, const Spectrum& throughput) {
-  if (!scatters_widely(material_at(scene_, hit))) return;
+  if (!scatters_widely(*MaterialAt(scene_, hit))) return;
   const std::uint32_t depth = paths_.depth[path];
   RandomStream random = random_of(path);
   random.skip_to(static_cast<std::uint32_t>(placement_point + 2) / 2, depth == 0 ? 1 : 0, hashed_numbers(depth) + 128);

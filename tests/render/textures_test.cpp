@@ -53,7 +53,7 @@ class Textures : public ::testing::Test {
     hit.uv = {static_cast<float>(u), static_cast<float>(v)};
     hit.position = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
     const std::int32_t texture = c.materials[0].diffuse_texture;
-    expect_near(material_at(c, hit).diffuse, texture_reflectance(c, texture, hit));
+    expect_near(MaterialAt(c, hit)->diffuse, texture_reflectance(c, texture, hit));
     return texture_value(c, texture, hit);
   }
 
