@@ -137,6 +137,19 @@ EmissionJob VolpathIntegrator::emission_job(std::int32_t index) const {
   return job;
 }
 
+// Calls place(job, stretches, first, last) for the stretches of the jobs' media, no more at a time than there is room
+// for.
+template <class Job, class Place>
+void VolpathIntegrator::place_along_flights(const std::vector<Job>& jobs, Place place) {
+  for (const Job& job : jobs) {
+    const TrackTasks& stretches = media_.stretches(job.medium);
+    for (std::uint32_t first = 0; first < stretches.count; first += path_count) {
+      make_room_for_shadow_rays(path_count);
+      place(job, stretches.columns, first, std::min(first + path_count, stretches.count));
+    }
+  }
+}
+
 void VolpathIntegrator::render_tile(const PixelBox& pixels, int first, int last, Film& film) {
   const auto samples = static_cast<std::uint32_t>(last - first);
   Tile tile{pixels, first, last, static_cast<std::uint32_t>(pixels.width() * pixels.height()) * samples, 0};
@@ -152,8 +165,14 @@ void VolpathIntegrator::render_tile(const PixelBox& pixels, int first, int last,
     find_surfaces();
     shadow_count_ = 0;
     media_.find_stretches(paths_.ray, places_);
-    place_lights_along_flights();
-    place_emission_along_flights();
+    place_along_flights(placement_jobs_, [&](const ScatterJob& job, const TrackColumns& stretches, std::uint32_t begin,
+                                             std::uint32_t end) {
+      place_lights(job, paths_, stretches, begin, end, shadows_, shadow_count_);
+    });
+    place_along_flights(emission_jobs_, [&](const EmissionJob& job, const TrackColumns& stretches, std::uint32_t begin,
+                                            std::uint32_t end) {
+      place_emission(job, paths_, stretches, begin, end, shadows_, shadow_count_);
+    });
     media_.find_collisions(paths_.ray, places_, paths_.flight);
     end_flights();
     for (const ScatterJob& job : jobs_) {
@@ -262,28 +281,6 @@ void VolpathIntegrator::find_surfaces() {
       paths_.ray.t_max[i] = hits_[i].t;
     else
       hits_[i].shape = -1;
-  }
-}
-
-void VolpathIntegrator::place_lights_along_flights() {
-  for (const ScatterJob& job : placement_jobs_) {
-    const TrackTasks& stretches = media_.stretches(job.medium);
-    for (std::uint32_t first = 0; first < stretches.count; first += path_count) {
-      make_room_for_shadow_rays(path_count);
-      place_lights(job, paths_, stretches.columns, first, std::min(first + path_count, stretches.count), shadows_,
-                   shadow_count_);
-    }
-  }
-}
-
-void VolpathIntegrator::place_emission_along_flights() {
-  for (const EmissionJob& job : emission_jobs_) {
-    const TrackTasks& stretches = media_.stretches(job.medium);
-    for (std::uint32_t first = 0; first < stretches.count; first += path_count) {
-      make_room_for_shadow_rays(path_count);
-      place_emission(job, paths_, stretches.columns, first, std::min(first + path_count, stretches.count), shadows_,
-                     shadow_count_);
-    }
   }
 }
 

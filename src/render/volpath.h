@@ -59,8 +59,8 @@ class VolpathIntegrator {
   void start_paths(Tile& tile);
   void start_path(std::uint32_t path, std::uint32_t fresh, std::uint32_t target);
   void find_surfaces();
-  void place_lights_along_flights();
-  void place_emission_along_flights();
+  template <class Job, class Place>
+  void place_along_flights(const std::vector<Job>& jobs, Place place);
   void end_flights();
   void see_environment(std::uint32_t path, float share);
   void meet_surface(std::uint32_t path);
