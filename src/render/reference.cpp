@@ -60,8 +60,8 @@ Spectrum ReferenceIntegrator::radiance(Ray ray, RandomStream& random, Foreground
       ray = continued(ray, hit, sample);
     }
 
-    // Russian roulette on paths that carry little.
-    const float survival = std::min(1.0f, max_value(throughput) / 0.05f);
+    // Russian roulette on paths that carry little. A lower limit than a half costs more steps than it saves error.
+    const float survival = std::min(1.0f, max_value(throughput) / 0.5f);
     if (!(random.next() < survival)) return result;
     throughput = (1 / survival) * throughput;
   }
