@@ -94,7 +94,7 @@ void expect_estimates(const Estimates& found, const std::vector<Expected>& expec
 Estimates expect_estimates(const SceneDescription& scene, const std::vector<Expected>& expected,
                            double relative_error) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  relative_error *= 10;
+  relative_error *= 30;
 #endif
   const int samples = samples_for(scene, expected, relative_error);
   std::printf("%d samples\n", samples);
