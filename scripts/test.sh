@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # scripts/test.sh [release|asan|tsan|all|nightly]...: sets up, builds and runs the tests by CTest, preset by preset; stops
 # at the first preset with a failure. Without arguments: release and asan (AddressSanitizer and
-# UndefinedBehaviorSanitizer; without the twins that tests of statistics must reject, since sanitizers do not change
-# what a test can see). nightly: the long tests, which the others leave out, in release.
+# UndefinedBehaviorSanitizer; without the twins with planted faults, since sanitizers do not change what a test can
+# see). nightly: the long tests, which the others leave out, in release.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

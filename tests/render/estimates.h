@@ -33,8 +33,8 @@ Estimates corrected(const Estimates& of_first, const SceneDescription& first, co
                     const SceneDescription& second, int samples);
 
 // |mean - expected| <= 4 standard errors + rounding, with as many samples as bring the standard error to
-// `relative_error` of the expected value (thirty times that under sanitizers, which look for other faults), in the first
-// channels of the scene. Prints mean, error, expected and z.
+// `relative_error` of the expected value (thirty times that under sanitizers, which look for other faults), in the
+// first channels of the scene. Prints mean, error, expected and z.
 Estimates expect_estimates(const SceneDescription& scene, const std::vector<Expected>& expected, double relative_error);
 void expect_estimates(const Estimates& found, const std::vector<Expected>& expected, double relative_error);
 inline void expect_estimate(const SceneDescription& scene, double expected, double rounding, double relative_error) {
