@@ -4,7 +4,8 @@
 // side, so that indices in [-8, n + 7] need no bounds test; callers clip their rays to the grid's bounds, which lie
 // within. A brick is its 512 values, packed: value = offset + scale * q for 8- and 16-bit q (error at most scale / 2),
 // or the float itself. Offset and scale are floats of 16 bits (the upper halves of theirs), beside the brick's place in
-// the table: one gather of 64 bits fetches all of a brick that a look-up needs to know.
+// the table: one gather of 64 bits fetches all of a brick that a look-up needs to know. An empty brick whose neighbours
+// on the upper sides are empty too has a scale of -0 (0x8000): all that is interpolated from there is 0.
 
 struct BrickGrid {
   Words table;  // two words for each brick: its first word in `bricks`, and offset (upper half) with scale (lower
@@ -20,6 +21,12 @@ struct Cell {
   F v000, v100, v010, v110, v001, v101, v011, v111;
 };
 
+// A brick in the table.
+struct Brick {
+  U first_word;
+  U steps;  // offset and scale
+};
+
 // Where a voxel's value is, and how it is read there.
 struct VoxelPlace {
   U word;   // its index in `bricks`
@@ -27,13 +34,29 @@ struct VoxelPlace {
   U steps;  // the brick's offset and scale
 };
 
-KERNEL VoxelPlace grid_place(BrickGrid g, I x, I y, I z) {
+// The brick that holds voxel (x, y, z).
+KERNEL Brick grid_brick(BrickGrid g, I x, I y, I z) {
   U bx = as_uint(x + 8) >> 3;
   U by = as_uint(y + 8) >> 3;
   U bz = as_uint(z + 8) >> 3;
+  Brick brick;
+  load_u32_pair(g.table, bz * U(g.table_xy) + by * U(g.table_x) + bx, brick.first_word, brick.steps);
+  return brick;
+}
+
+// Whether every look-up is 0 in the brick that holds voxel (x, y, z); with linear interpolation, in the same brick of
+// dual cells.
+KERNEL B grid_is_empty(BrickGrid g, bool linear, I x, I y, I z) {
+  Brick brick = grid_brick(g, x, y, z);
+  return as_int(linear ? brick.first_word | (brick.steps ^ U(0x8000u)) : brick.first_word) == I(0);
+}
+
+KERNEL VoxelPlace grid_place(BrickGrid g, I x, I y, I z) {
   U voxel = as_uint((x & 7) | ((y & 7) << 3) | ((z & 7) << 6));
+  Brick brick = grid_brick(g, x, y, z);
   VoxelPlace place;
-  load_u32_pair(g.table, bz * U(g.table_xy) + by * U(g.table_x) + bx, place.word, place.steps);
+  place.word = brick.first_word;
+  place.steps = brick.steps;
   if (g.bits == 32u) {
     place.word = place.word + voxel;
     place.shift = U(0u);

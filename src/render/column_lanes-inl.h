@@ -1,5 +1,5 @@
-// Columns of rays and paths in SIMD lanes, and phase functions as types: what the stages of volpath that are compiled
-// for several instruction sets share. Included as lanes/lanes-inl.h is, and in its place.
+// Columns of rays and paths in SIMD lanes, and phase functions as types: what the files that are compiled for several
+// instruction sets share. Included as lanes/lanes-inl.h is, and in its place.
 #if defined(BRUME_COLUMN_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BRUME_COLUMN_LANES_INL_H
 #undef BRUME_COLUMN_LANES_INL_H
@@ -14,7 +14,7 @@ namespace brume {
 namespace HWY_NAMESPACE {
 
 HWY_INLINE F gather(const float* column, I index) { return F(hn::GatherIndex(float_tag, column, index.v)); }
-HWY_INLINE vec3 gather3(float* const* columns, I index) {
+HWY_INLINE vec3 gather3(const float* const* columns, I index) {
   return vec3(gather(columns[0], index), gather(columns[1], index), gather(columns[2], index));
 }
 HWY_INLINE vec3 load3(float* const* columns, std::uint32_t i) {

@@ -1,10 +1,12 @@
 #include "render/density.h"
 
+#include <algorithm>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/density.cpp"
 #include <hwy/foreach_target.h>
 
-#include "lanes/lanes-inl.h"
+#include "render/column_lanes-inl.h"
 
 // What crosses from baseline code to code compiled for one instruction set: plain pointers, no containers.
 #ifndef BRUME_STRETCH_ARRAYS
@@ -15,7 +17,7 @@ struct StretchArrays {
   const float* direction[3];
   const float* length;
   const std::uint32_t* random_key;
-  std::size_t padded_size;
+  std::int32_t size, padded_size;  // padded to whole vectors
 };
 }  // namespace brume
 #endif
@@ -40,21 +42,77 @@ HWY_INLINE F step_count(F length, F step) {
   return min(max(select(n * step < length, n + 1.0f, n), 1.0f), 1048576.0f);
 }
 
-HWY_INLINE F march(const BrickGrid& grid, const DensityQuadrature& q, const Stretch& s) {
-  const F count = step_count(s.length, F(q.step));
-  const F step = s.length / count;
-  F sum = 0.0f;
-  for (std::int32_t i = 0;; ++i) {
-    // The integral so far is sum * step; a lane is done after its last step or once it has enough.
-    const B active = both(F(static_cast<float>(i)) < count, sum * step <= F(q.enough));
-    if (!any(active)) break;
-    const F u =
-        q.placement_spread > 0 ? random_uniform(s.key, U(0u), U(0u), U(static_cast<std::uint32_t>(i))) : F(0.0f);
-    const F t = min(march_position(F(0.0f), step, I(i), F(q.placement_base), F(q.placement_spread), u), s.length);
-    const F density = density_at(grid, q.linear, s.entry + t * s.direction);
-    sum = sum + select(active, density, F(0.0f));
+// The stretches `index`.
+HWY_INLINE Stretch load_stretches(const StretchArrays& a, I index) {
+  const auto key = U(hn::GatherIndex(uint_tag, a.random_key, index.v));
+  return {gather3(a.entry, index), gather3(a.direction, index), gather(a.length, index), key};
+}
+
+// Which stretches are being marched.
+struct Marchers {
+  static constexpr std::int32_t none = -1;
+  HWY_ALIGN std::int32_t stretch[HWY_MAX_BYTES / sizeof(std::int32_t)];  // the lane's, or none
+  std::int32_t next = 0;
+
+  Marchers() { std::fill(std::begin(stretch), std::end(stretch), none); }
+
+  // Writes down what the lanes `done` have found and gives them the next stretches, while there are any.
+  HWY_INLINE void take_next(const StretchArrays& a, B done, F found, float* integral) {
+    HWY_ALIGN float is_done[HWY_MAX_BYTES / sizeof(float)], value[HWY_MAX_BYTES / sizeof(float)];
+    store_lanes(select(done, F(1.0f), F(0.0f)), is_done);
+    store_lanes(found, value);
+    for (int lane = 0; lane < lane_count(); ++lane) {
+      if (is_done[lane] == 0) continue;
+      if (stretch[lane] != none) integral[stretch[lane]] = value[lane];
+      stretch[lane] = next < a.size ? next++ : none;
+    }
   }
-  return sum * step;
+};
+
+// How far a ray stays in the brick that begins at `lo`, as far as one axis goes.
+HWY_INLINE F brick_exit(F origin, F direction, I lo) {
+  const F wall = to_float(lo) + select(direction > F(0.0f), F(8.0f), F(0.0f));
+  return select(direction == F(0.0f), F(1e30f), (wall - origin) / direction);
+}
+
+// Marches along the stretches, each lane along its own: it goes over an empty brick in one step, and on to the next
+// stretch when it is done.
+void march_lanes(const BrickGrid& grid, const DensityQuadrature& q, const StretchArrays& a, float* integral) {
+  Marchers marchers;
+  const F shift = q.linear ? 0.5f : 0.0f;  // look-ups with linear interpolation are in bricks of dual cells
+  Stretch s{};
+  F count = 0.0f, step = 0.0f, i = 0.0f, sum = 0.0f;
+  B idle = i < F(0.0f);
+  for (;;) {
+    // The integral so far is sum * step; a lane is done after its last step or once it has enough.
+    const B done = both(negate(idle), either(i >= count, sum * step > F(q.enough)));
+    if (any(done)) {
+      marchers.take_next(a, done, sum * step, integral);
+      const I stretch = load_lanes(marchers.stretch);
+      idle = stretch < I(0);
+      if (!any(negate(idle))) return;
+      s = load_stretches(a, max(stretch, I(0)));
+      count = step_count(s.length, F(q.step));
+      step = s.length / count;
+      i = select(done, F(0.0f), i);
+      sum = select(done, F(0.0f), sum);
+    }
+    const F u = q.placement_spread > 0 ? random_uniform(s.key, U(0u), U(0u), as_uint(to_int(i))) : F(0.0f);
+    const F t = min(march_position(F(0.0f), step, to_int(i), F(q.placement_base), F(q.placement_spread), u), s.length);
+    const vec3 p = s.entry + t * s.direction;
+    const I x = floor_to_int(p.x - shift), y = floor_to_int(p.y - shift), z = floor_to_int(p.z - shift);
+    const B empty = both(negate(idle), grid_is_empty(grid, q.linear, x, y, z));
+    if (any(negate(either(idle, empty)))) sum = sum + density_at(grid, q.linear, p);
+    i = i + 1.0f;
+    if (any(empty)) {
+      const F exit = min(min(brick_exit(s.entry.x - shift, s.direction.x, x & -8),
+                             brick_exit(s.entry.y - shift, s.direction.y, y & -8)),
+                         brick_exit(s.entry.z - shift, s.direction.z, z & -8));
+      // The first step whose point can lie beyond; not a number in a stretch without length.
+      const F beyond = floor(exit / step - F(q.placement_base + q.placement_spread)) + 1.0f;
+      i = select(both(empty, beyond > i), beyond, i);
+    }
+  }
 }
 
 HWY_INLINE void advance(B where, Dda& walk) {
@@ -93,20 +151,15 @@ HWY_INLINE F walk_cells(const BrickGrid& grid, const DensityQuadrature& q, const
 
 void integrate_lanes(const kernel::BrickGrid& host_grid, const DensityQuadrature& q, const StretchArrays& a,
                      float* integral) {
-  const BrickGrid grid{host_grid.table, host_grid.bricks, host_grid.table_x, host_grid.table_xy, host_grid.bits};
-  const std::size_t lanes = static_cast<std::size_t>(lane_count());
-  for (std::size_t i = 0; i < a.padded_size; i += lanes) {
-    const Stretch s{
-        vec3(load_lanes(a.entry[0] + i), load_lanes(a.entry[1] + i), load_lanes(a.entry[2] + i)),
-        vec3(load_lanes(a.direction[0] + i), load_lanes(a.direction[1] + i), load_lanes(a.direction[2] + i)),
-        load_lanes(a.length + i), load_lanes(a.random_key + i)};
-    store_lanes(q.dda ? walk_cells(grid, q, s) : march(grid, q, s), integral + i);
-  }
+  const BrickGrid grid = lanes_of(host_grid);
+  if (!q.dda) return march_lanes(grid, q, a, integral);
+  for (std::int32_t i = 0; i < a.padded_size; i += lane_count())
+    store_lanes(walk_cells(grid, q, load_stretches(a, I(i) + lane_index())), integral + i);
 }
 
 void sample_lanes(const kernel::BrickGrid& host_grid, bool linear, const float* entry, const float* direction,
                   float t_entry, const float* t, std::size_t count, float* density) {
-  const BrickGrid grid{host_grid.table, host_grid.bricks, host_grid.table_x, host_grid.table_xy, host_grid.bits};
+  const BrickGrid grid = lanes_of(host_grid);
   const vec3 origin(entry[0], entry[1], entry[2]), d(direction[0], direction[1], direction[2]);
   const std::size_t lanes = static_cast<std::size_t>(lane_count()), whole = count / lanes * lanes;
   for (std::size_t i = 0; i < whole; i += lanes)
@@ -155,6 +208,7 @@ void integrate_density(const kernel::BrickGrid& grid, const DensityQuadrature& q
   constexpr std::size_t widest = 16;
   if (s.size() == 0) return;
   // Padding is stretches of no length, from a place that is within the grid.
+  const auto size = static_cast<std::int32_t>(s.size());
   const kernel::vec3 inside(s.entry_x[0], s.entry_y[0], s.entry_z[0]);
   while (s.size() % widest != 0) s.add(inside, kernel::vec3(1, 0, 0), 0, 0);
   integral.resize(s.size());
@@ -162,7 +216,8 @@ void integrate_density(const kernel::BrickGrid& grid, const DensityQuadrature& q
                              {s.direction_x.data(), s.direction_y.data(), s.direction_z.data()},
                              s.length.data(),
                              s.random_key.data(),
-                             s.size()};
+                             size,
+                             static_cast<std::int32_t>(s.size())};
   HWY_DYNAMIC_DISPATCH(integrate_lanes)(grid, quadrature, arrays, integral.data());
 }
 

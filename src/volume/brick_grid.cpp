@@ -9,6 +9,7 @@
 namespace brume {
 namespace {
 
+constexpr std::uint32_t gap_steps = 0x8000;  // kernel/lookup.inl
 constexpr std::size_t max_words = std::size_t{1} << 31;
 
 std::size_t words_per_brick(Storage storage) {
@@ -50,6 +51,23 @@ void append_packed(std::vector<std::uint32_t>& words, std::span<const float, bri
     }
     words.push_back(word);
   }
+}
+
+// Marks the empty bricks, the border's too, whose neighbours on the upper sides are empty.
+void mark_gaps(BrickGrid& grid) {
+  const std::array<int, 3> last = grid.bricks;
+  const auto is_gap = [&](int x, int y, int z) {
+    for (int corner = 0; corner < 8; ++corner) {
+      const std::array<int, 3> brick{x + (corner & 1), y + (corner >> 1 & 1), z + (corner >> 2)};
+      const bool in_table = brick[0] <= last[0] && brick[1] <= last[1] && brick[2] <= last[2];
+      if (in_table && grid.table[2 * table_index(grid, brick)] != 0) return false;
+    }
+    return true;
+  };
+  for (int z = -1; z <= last[2]; ++z)
+    for (int y = -1; y <= last[1]; ++y)
+      for (int x = -1; x <= last[0]; ++x)
+        if (is_gap(x, y, z)) grid.table[2 * table_index(grid, {x, y, z}) + 1] = gap_steps;
 }
 
 }  // namespace
@@ -151,6 +169,7 @@ BrickGrid BrickGridBuilder::finish() {
   grid_.max_value = some_unset ? std::max(0.0f, max_) : max_;
   grid_.mean_value = sum_ / static_cast<double>(voxels);
   grid_.words.shrink_to_fit();
+  mark_gaps(grid_);
   return std::move(grid_);
 }
 

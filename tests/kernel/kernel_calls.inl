@@ -105,6 +105,13 @@ inline void call_grid_nearest(const F* in, F* out, const TestGrid& g) {
 inline void call_grid_linear(const F* in, F* out, const TestGrid& g) {
   out[0] = grid_linear(call_grid(g), call_vec3(in));
 }
+inline void call_grid_is_empty(const F* in, F* out, const TestGrid& g) {
+  for (int linear = 0; linear < 2; ++linear) {
+    const B empty =
+        grid_is_empty(call_grid(g), linear == 1, floor_to_int(in[0]), floor_to_int(in[1]), floor_to_int(in[2]));
+    out[linear] = select(empty, F(1.0f), F(0.0f));
+  }
+}
 inline void call_cell_mean_linear(const F* in, F* out, const TestGrid& g) {
   const I x = floor_to_int(in[0]), y = floor_to_int(in[1]), z = floor_to_int(in[2]);
   const Cell cell = grid_cell(call_grid(g), x, y, z);
@@ -160,6 +167,7 @@ constexpr KernelCall kernel_calls[] = {
     CALL(majorant_walk, 6, 24),   CALL(grid_stochastic, 5, 1),
     CALL(ball_span, 6, 5),        CALL(cone_falloff, 3, 1),
     CALL(emission_factor, 3, 3),  CALL(emission_along_flights, 1, 1),
+    CALL(grid_is_empty, 3, 2),
 #include "kernel/phase_list.inl"
 };
 #undef PHASE

@@ -36,6 +36,16 @@ struct Field {
   }
 };
 
+// Empty but for a corner of one brick, from which interpolation reaches into seven empty ones.
+Field corner_field() {
+  Field f;
+  f.values.resize(11 * 19 * 26);
+  for (int z = 8; z < 11; ++z)
+    for (int y = 8; y < 12; ++y)
+      for (int x = 8; x < 11; ++x) f.values[static_cast<std::size_t>((z * resolution[1] + y) * resolution[0] + x)] = 1;
+  return f;
+}
+
 Field random_field() {
   std::mt19937 rng(3);
   std::uniform_real_distribution<float> uniform(0, 1);
@@ -89,6 +99,14 @@ class DensityIntegral : public ::testing::Test {
                       q, s, integral);
     return integral;
   }
+  // By how much marching in steps of 0.01 is away from the DDA at most.
+  float worst_of_marching(bool linear, float base, float spread) {
+    const auto exact = integrate({linear, true, 0, 0, 0, 1e9f}, stretches);
+    const auto marched = integrate({linear, false, 0.01f, base, spread, 1e9f}, stretches);
+    float worst = 0;
+    for (std::size_t i = 0; i < stretches.size(); ++i) worst = std::max(worst, std::abs(marched[i] - exact[i]));
+    return worst;
+  }
   void TearDown() override { use_instruction_set(""); }
 
   Field field = random_field();
@@ -135,6 +153,23 @@ TEST_F(DensityIntegral, MarchingConvergesToTheDda) {
     }
     EXPECT_LT(fine_error, 0.01 * coarse_error) << set.name;
   }
+}
+
+// Catches steps over an empty brick that go too far, or over one into which a neighbour's values reach.
+TEST_F(DensityIntegral, MarchingStepsOverWhatIsEmptyOnly) {
+  grid = make_brick_grid(resolution, corner_field().values, Storage::f32);
+  stretches = random_stretches(1000);
+  for (const InstructionSet& set : available_instruction_sets()) {
+    ASSERT_TRUE(use_instruction_set(set.name));
+    for (const auto& [base, spread] : {std::pair{0.5f, 0.0f}, {0.0f, 1.0f}, {0.25f, 0.5f}}) {
+      EXPECT_LT(worst_of_marching(true, base, spread), 2e-3f) << set.name << " " << base;
+      EXPECT_LT(worst_of_marching(false, base, spread), 2e-2f) << set.name << " " << base;
+    }
+  }
+  // The twin: all empty bricks are marked as if their neighbours were empty too.
+  for (std::size_t i = 0; i < grid.table.size(); i += 2)
+    if (grid.table[i] == 0) grid.table[i + 1] = grid.table[1];
+  EXPECT_GT(worst_of_marching(true, 0.5f, 0), 0.1f);
 }
 
 // The z-score of marching with coarse steps at one random place each, over many streams, against the exact integral.
