@@ -17,6 +17,8 @@ constexpr float negligible_transmittance = 1e-4f;
 // Steps whose densities are looked up together.
 constexpr int batch_size = 64;
 constexpr int most_followers = 4096;  // of a camera ray
+// Shadow rays that are followed together: some times as many as there are lanes.
+constexpr std::size_t shadow_batch = 1024;
 // With random placements, the share of scattered light that one shadow ray stands for.
 constexpr float faint_share = 1.0f / 32;
 
@@ -41,15 +43,23 @@ ClassicIntegrator::ClassicIntegrator(const CompiledScene& scene, const Intersect
       emission_fields_(emission_fields(scene)),
       visibility_(scene, intersector, media) {}
 
-Spectrum ClassicIntegrator::radiance(Ray ray, RandomStream& random, Foreground& seen) {
+void ClassicIntegrator::render(std::span<CameraSample> samples) {
+  direct_.assign(samples.size(), {});
+  for (sample_ = 0; sample_ < samples.size(); ++sample_) samples[sample_].radiance = radiance(samples[sample_]);
+  follow_shadow_rays();
+  for (std::size_t i = 0; i < samples.size(); ++i) samples[i].radiance = samples[i].radiance + direct_[i];
+}
+
+// The radiance of a sample but for what its shadow rays will bring.
+Spectrum ClassicIntegrator::radiance(CameraSample& sample) {
   Spectrum result;
-  pending_.assign(1, {ray, constant_spectrum(1), 0});
+  pending_.assign(1, {sample.ray, constant_spectrum(1), 0});
   for (int followed = 0; !pending_.empty() && followed <= most_followers; ++followed) {
     const Branch branch = pending_.back();
     pending_.pop_back();
     Foreground ahead;
-    result = result + follow(branch, random, ahead);
-    if (followed == 0) seen = ahead;
+    result = result + follow(branch, sample.random, ahead);
+    if (followed == 0) sample.seen = ahead;
   }
   return result;
 }
@@ -65,7 +75,7 @@ Spectrum ClassicIntegrator::follow(const Branch& branch, RandomStream& random, F
   if (is_hit) ray.t_max = hit.t;
   const bool scatters = branch.depth < scene_.integrator.max_depth;
   Spectrum transmittance = constant_spectrum(1);
-  Spectrum result = branch.throughput * cross_media(ray, scatters, random, transmittance, seen);
+  Spectrum result = branch.throughput * cross_media(at_end, scatters, random, transmittance, seen);
   if (is_hit) seen.add(1 - seen.coverage, hit.t);
   at_end.throughput = branch.throughput * transmittance;
   if (!is_hit) return result + at_end.throughput * background(at_end);
@@ -76,8 +86,8 @@ Spectrum ClassicIntegrator::follow(const Branch& branch, RandomStream& random, F
   if (!scatters || is_zero(at_end.throughput)) return result;
   hit = facing(hit, ray.direction);
   branch_off(at_end, hit, random);
-  return result +
-         at_end.throughput * (MaterialAt(scene_, hit)->ambient * scene_.ambient + direct_light(ray, hit, random));
+  direct_light(at_end, hit, random);
+  return result + at_end.throughput * MaterialAt(scene_, hit)->ambient * scene_.ambient;
 }
 
 // The reflected and the refracted ray; of a rough surface one that a facet reflects. A shading normal can send them to
@@ -107,8 +117,9 @@ float ClassicIntegrator::share(const Branch& branch, const CompiledLight& light,
 
 // What the media along the ray add, in `transmittance` what they leave of what lies behind them, and in `seen` where
 // the rest was stopped.
-Spectrum ClassicIntegrator::cross_media(const Ray& ray, bool scatters, RandomStream& random, Spectrum& transmittance,
-                                        Foreground& seen) {
+Spectrum ClassicIntegrator::cross_media(const Branch& branch, bool scatters, RandomStream& random,
+                                        Spectrum& transmittance, Foreground& seen) {
+  const Ray& ray = branch.ray;
   if (const auto place = media_.find({&ray, 1}, spans_, crossings_)) too_many_media_ = place;
   points_.clear();
   scatterings_.clear();
@@ -132,11 +143,11 @@ Spectrum ClassicIntegrator::cross_media(const Ray& ray, bool scatters, RandomStr
         if (ends) transmittance = {};
         seen.add((before - sum(transmittance)) / channel_count, sample_t_[k]);
         if (!ends) continue;
-        return emitted + in_scattering(ray, random);
+        return emitted + in_scattering(branch, random);
       }
     }
   }
-  return emitted + in_scattering(ray, random);
+  return emitted + in_scattering(branch, random);
 }
 
 // Steps [first, last) of equal length from t_begin on, with a sample in each.
@@ -268,86 +279,74 @@ bool ClassicIntegrator::chosen(std::size_t first) {
   return true;
 }
 
-// The light that the points taken note of scatter towards the ray's origin.
-Spectrum ClassicIntegrator::in_scattering(const Ray& ray, RandomStream& random) {
+// The ambient light that the points taken note of scatter towards the ray's origin; for that of the lights it sends
+// shadow rays.
+Spectrum ClassicIntegrator::in_scattering(const Branch& branch, RandomStream& random) {
   Spectrum result;
   if (points_.empty()) return result;
   for (const Scattering& s : scatterings_) result = result + scene_.ambient * s.weight;
   for (std::size_t light = 0; light < scene_.lights.size(); ++light) {
-    light_samples_.clear();
-    shadow_rays_.clear();
     for (const Point& point : points_) {
-      light_samples_.push_back(sample_light(scene_, scene_.lights[light], point.position, nullptr, random));
-      shadow_rays_.push_back(light_samples_.back().ray);
-    }
-    counts_.shadow_rays += static_cast<std::int64_t>(shadow_rays_.size());
-    find_arriving(light, random);
-    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const LightSample s = sample_light(scene_, scene_.lights[light], point.position, nullptr, random);
       // Light travels against the shadow ray, and is scattered against the camera's: the two signs cancel.
-      const float mu = std::clamp(dot(shadow_rays_[i].direction, ray.direction), -1.0f, 1.0f);
-      const Spectrum light_here = arriving_[i] * light_samples_[i].value;
-      for (std::size_t k = points_[i].first; k < points_[i].last; ++k) {
-        const CompiledMedium& medium = scene_.media[static_cast<std::size_t>(scatterings_[k].medium)];
-        result = result + phase_eval(medium, mu) * light_here * scatterings_[k].weight;
+      const float mu = std::clamp(dot(s.ray.direction, branch.ray.direction), -1.0f, 1.0f);
+      Spectrum scattered;
+      int cached_medium = no_medium;
+      for (std::size_t k = point.first; k < point.last; ++k) {
+        const auto& [medium, weight] = scatterings_[k];
+        scattered = scattered + phase_eval(scene_.media[static_cast<std::size_t>(medium)], mu) * weight;
+        if (cache_ && cached_medium == no_medium && cache_->covers(light, medium)) cached_medium = medium;
       }
+      Spectrum worth = branch.throughput * s.value * scattered;
+      if (cached_medium != no_medium) worth = worth * cache_->transmittance(light, cached_medium, point.position);
+      send_shadow_ray(s.ray, random, worth, cached_medium == no_medium);
     }
   }
   return result;
 }
 
-// What of the light arrives at each of the points, along the shadow rays.
-void ClassicIntegrator::find_arriving(std::size_t light, RandomStream& random) {
-  if (!cache_) return visibility_.find(shadow_rays_, random, arriving_);
-  visibility_.cross_surfaces(shadow_rays_, arriving_);
-  uncached_.clear();
-  uncached_rays_.clear();
-  uncached_arriving_.clear();
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const auto first = scatterings_.begin() + static_cast<std::ptrdiff_t>(points_[i].first),
-               last = scatterings_.begin() + static_cast<std::ptrdiff_t>(points_[i].last);
-    const auto covered = std::find_if(first, last, [&](const auto& s) { return cache_->covers(light, s.medium); });
-    if (covered != last) {
-      arriving_[i] = arriving_[i] * cache_->transmittance(light, covered->medium, points_[i].position);
-      continue;
-    }
-    uncached_.push_back(i);
-    uncached_rays_.push_back(shadow_rays_[i]);
-    uncached_arriving_.push_back(arriving_[i]);
-  }
-  visibility_.cross_media(uncached_rays_, random, uncached_arriving_);
-  for (std::size_t k = 0; k < uncached_.size(); ++k) arriving_[uncached_[k]] = uncached_arriving_[k];
-}
-
-// What the surface sends back of the light that arrives directly. Of lights that have a size a rough surface's facets
-// reflect a part along the rays that branch off.
-Spectrum ClassicIntegrator::direct_light(const Ray& ray, const SurfaceHit& hit, RandomStream& random) {
-  Spectrum result;
-  if (!scatters_widely(*MaterialAt(scene_, hit))) return result;
+// What the surface sends back of the light that arrives directly, by shadow rays. Of lights that have a size a rough
+// surface's facets reflect a part along the rays that branch off.
+void ClassicIntegrator::direct_light(const Branch& branch, const SurfaceHit& hit, RandomStream& random) {
+  if (!scatters_widely(*MaterialAt(scene_, hit))) return;
+  const Ray& ray = branch.ray;
   const vec3 p = ray.at(hit.t), start = leave_surface(p, hit.normal, hit.t);
-  light_samples_.clear();
-  shadow_rays_.clear();
   for (const CompiledLight& light : scene_.lights) {
     const bool extends = has_extent(light);
     const int count = extends ? scene_.integrator.shadow_samples : 1;
     const RandomStream::Pair numbers = extends ? random.next_pair() : RandomStream::Pair{};
     for (int i = 0; i < count; ++i) {
-      LightSample s = sample_light(scene_, light, p, &hit.shading_normal, stratified(numbers, i, count));
+      const LightSample s = sample_light(scene_, light, p, &hit.shading_normal, stratified(numbers, i, count));
       const vec3 to_light = s.ray.direction;
       float facet_pdf = 0;
       const Spectrum facets = eval_facets(scene_, hit, ray.direction, to_light, facet_pdf);
       const float light_pdf = static_cast<float>(count) * s.pdf,
                   share = extends ? light_pdf / (light_pdf + facet_pdf) : 1;
       const Spectrum reflected = eval_matt(scene_, hit, ray.direction, to_light) + (facet_pdf > 0 ? share : 0) * facets;
-      s.value = (1 / static_cast<float>(count)) * s.value * reflected;
-      if (is_zero(s.value)) continue;
-      light_samples_.push_back(s);
-      shadow_rays_.push_back(started_at(start, s.ray));
+      send_shadow_ray(started_at(start, s.ray), random,
+                      (1 / static_cast<float>(count)) * branch.throughput * s.value * reflected, true);
     }
   }
-  counts_.shadow_rays += static_cast<std::int64_t>(shadow_rays_.size());
-  visibility_.find(shadow_rays_, random, arriving_);
-  for (std::size_t i = 0; i < shadow_rays_.size(); ++i) result = result + light_samples_[i].value * arriving_[i];
-  return result;
+}
+
+// Asks for light along the ray, which is worth that much to the current sample.
+void ClassicIntegrator::send_shadow_ray(const Ray& ray, RandomStream& random, const Spectrum& worth,
+                                        bool through_media) {
+  if (is_zero(worth)) return;
+  ++counts_.shadow_rays;
+  shadow_rays_.add(ray, random.next_bits(), through_media);
+  claims_.push_back({sample_, worth});
+  if (claims_.size() == shadow_batch) follow_shadow_rays();
+}
+
+void ClassicIntegrator::follow_shadow_rays() {
+  visibility_.find(shadow_rays_, transmittance_);
+  for (std::size_t i = 0; i < claims_.size(); ++i) {
+    Spectrum& direct = direct_[claims_[i].sample];
+    direct = direct + claims_[i].worth * transmittance_[i];
+  }
+  shadow_rays_.clear();
+  claims_.clear();
 }
 
 Spectrum ClassicIntegrator::background(const Branch& branch) const {

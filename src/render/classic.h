@@ -31,15 +31,25 @@
 
 namespace brume {
 
-// One to each worker: it keeps its arrays from sample to sample.
+// A sample of a pixel: the camera's ray and its random numbers; and then the radiance that arrives along it, and what
+// the ray meets, its depth along the ray.
+struct CameraSample {
+  Ray ray;
+  RandomStream random;
+  Spectrum radiance;
+  Foreground seen;
+};
+
+// One to each worker: it keeps its arrays from call to call.
 class ClassicIntegrator {
  public:
   // `cache` is null where shadow rays are to march through media too.
   ClassicIntegrator(const CompiledScene& scene, const Intersector& intersector, const MediaAlongRay& media,
                     const ShadowCache* cache);
 
-  // The radiance that arrives at the ray's origin; `seen` gets what the ray meets, its depth along the ray.
-  Spectrum radiance(Ray ray, RandomStream& random, Foreground& seen);
+  // Finds the samples' radiance. Their shadow rays are followed many together, in SIMD lanes; what comes of a sample
+  // does not depend on the others.
+  void render(std::span<CameraSample> samples);
 
   const RenderCounts& counts() const { return counts_; }
 
@@ -70,9 +80,17 @@ class ClassicIntegrator {
     std::size_t first, last;  // in scatterings_
   };
 
+  // A sample and what a shadow ray's light is worth to it.
+  struct Claim {
+    std::size_t sample;
+    Spectrum worth;
+  };
+
+  Spectrum radiance(CameraSample& sample);
   Spectrum follow(const Branch& branch, RandomStream& random, Foreground& seen);
   void branch_off(const Branch& branch, const SurfaceHit& hit, RandomStream& random);
-  Spectrum cross_media(const Ray& ray, bool scatters, RandomStream& random, Spectrum& transmittance, Foreground& seen);
+  Spectrum cross_media(const Branch& branch, bool scatters, RandomStream& random, Spectrum& transmittance,
+                       Foreground& seen);
   void find_cuts();
   float longest_step(float t_begin, float t_end);
   void place_steps(float t_begin, float length, int first, int last, RandomStream& random);
@@ -80,9 +98,10 @@ class ClassicIntegrator {
   float mean_density(const MediumSpan& span, const CompiledMedium& medium, const Step& step) const;
   Spectrum take_step(const Ray& ray, std::size_t step, bool scatters, Spectrum& transmittance);
   bool chosen(std::size_t first);
-  Spectrum in_scattering(const Ray& ray, RandomStream& random);
-  void find_arriving(std::size_t light, RandomStream& random);
-  Spectrum direct_light(const Ray& ray, const SurfaceHit& hit, RandomStream& random);
+  Spectrum in_scattering(const Branch& branch, RandomStream& random);
+  void direct_light(const Branch& branch, const SurfaceHit& hit, RandomStream& random);
+  void send_shadow_ray(const Ray& ray, RandomStream& random, const Spectrum& worth, bool through_media);
+  void follow_shadow_rays();
   float share(const Branch& branch, const CompiledLight& light, const SurfaceHit& hit) const;
   Spectrum background(const Branch& branch) const;
 
@@ -104,12 +123,10 @@ class ClassicIntegrator {
   std::vector<Point> points_;
   std::vector<Scattering> scatterings_;
   float shares_seen_ = 0;
-  std::vector<LightSample> light_samples_;
-  std::vector<Ray> shadow_rays_;
-  std::vector<Spectrum> arriving_;
-  std::vector<std::size_t> uncached_;  // shadow rays,
-  std::vector<Ray> uncached_rays_;     // and what arrives along them
-  std::vector<Spectrum> uncached_arriving_;
+  std::size_t sample_ = 0;                        // the current one of those that are being rendered
+  ShadowRays shadow_rays_;                        // not yet followed,
+  std::vector<Claim> claims_;                     // and whose they are
+  std::vector<Spectrum> transmittance_, direct_;  // of the shadow rays; what they brought to each sample
   RenderCounts counts_;
 };
 

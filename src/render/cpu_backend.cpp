@@ -42,7 +42,11 @@ class TileRenderer {
     if (volpath_) return volpath_->render_tile(tile, first, last, film);
     for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x)
-        for (int s = first; s < last; ++s) add_sample(x, y, s, film);
+        for (int s = first; s < last; ++s) {
+          add_sample(x, y, s);
+          if (samples_.size() == sample_batch) render_samples(film);
+        }
+    render_samples(film);
   }
 
   std::optional<kernel::vec3> too_many_media() const {
@@ -55,19 +59,33 @@ class TileRenderer {
   }
 
  private:
+  struct Place {
+    int x, y;
+    float filter_weight;
+  };
+  static constexpr std::size_t sample_batch = 64;
+
   // Of pixel (x, y) of the film.
-  void add_sample(int x, int y, int index, Film& film) {
+  void add_sample(int x, int y, int index) {
     const int picture_x = scene_.crop.x0 + x, picture_y = scene_.crop.y0 + y;
     RandomStream random(scene_, picture_x, picture_y, index);
     const RandomStream::Pair place = random.next_pair();
     const FilterSample f = filter_.sample(place.u, place.v);
     const double px = picture_x + 0.5 + static_cast<double>(f.x), py = picture_y + 0.5 + static_cast<double>(f.y);
-    const Ray ray = camera_ray(scene_.camera, px, py);
-    Foreground foreground;
-    const Spectrum radiance =
-        classic_ ? classic_->radiance(ray, random, foreground) : reference_->radiance(ray, random, foreground);
-    foreground.depth *= dot(ray.direction, camera_axis(scene_.camera));
-    film.add(x, y, radiance, foreground, f.weight);
+    samples_.push_back({camera_ray(scene_.camera, px, py), random, {}, {}});
+    places_.push_back({x, y, f.weight});
+  }
+
+  void render_samples(Film& film) {
+    if (classic_) classic_->render(samples_);
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      auto& [ray, random, radiance, seen] = samples_[i];
+      if (reference_) radiance = reference_->radiance(ray, random, seen);
+      seen.depth *= dot(ray.direction, camera_axis(scene_.camera));
+      film.add(places_[i].x, places_[i].y, radiance, seen, places_[i].filter_weight);
+    }
+    samples_.clear();
+    places_.clear();
   }
 
   const CompiledScene& scene_;
@@ -75,6 +93,8 @@ class TileRenderer {
   std::optional<ClassicIntegrator> classic_;
   std::optional<ReferenceIntegrator> reference_;
   std::optional<VolpathIntegrator> volpath_;
+  std::vector<CameraSample> samples_;  // to be rendered together,
+  std::vector<Place> places_;          // and where they belong
 };
 
 class CpuBackend : public Backend {

@@ -85,7 +85,7 @@ void ShadowCache::add_lattice(std::size_t light, int medium, int most_points) {
 void ShadowCache::fill_layer(Lattice& lattice, int layer, Visibility& visibility) const {
   const Transform world_from_index = inverse(media_[static_cast<std::size_t>(lattice.medium)].index_from_world);
   const auto [nx, ny, nz] = lattice.points;
-  std::vector<Ray> rays;
+  ShadowRays rays;
   std::vector<Spectrum> row;
   for (int y = 0; y < ny; ++y) {
     RandomStream random(scene_, y, layer, lattice.medium);
@@ -95,10 +95,11 @@ void ShadowCache::fill_layer(Lattice& lattice, int layer, Visibility& visibility
           world_from_index.point({lattice.lo[0] + x * lattice.spacing[0], lattice.lo[1] + y * lattice.spacing[1],
                                   lattice.lo[2] + layer * lattice.spacing[2]});
       const vec3 origin(static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z));
-      rays.push_back(sample_light(scene_, scene_.lights[lattice.light], origin, nullptr, RandomStream::Pair{}).ray);
+      rays.add(sample_light(scene_, scene_.lights[lattice.light], origin, nullptr, RandomStream::Pair{}).ray,
+               random.next_bits());
     }
     row.assign(rays.size(), constant_spectrum(1));
-    visibility.cross_media(rays, random, row);
+    visibility.cross_media(rays, row);
     std::copy(row.begin(), row.end(),
               lattice.values.begin() + (static_cast<std::ptrdiff_t>(layer) * ny + y) * static_cast<std::ptrdiff_t>(nx));
   }

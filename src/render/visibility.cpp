@@ -1,6 +1,7 @@
 #include "render/visibility.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "render/lights.h"
 #include "render/surfaces.h"
@@ -35,25 +36,33 @@ Visibility::Visibility(const CompiledScene& scene, const Intersector& intersecto
       has_glass_(std::any_of(scene.materials.begin(), scene.materials.end(),
                              [](const CompiledMaterial& m) { return !is_zero(m.refraction); })) {}
 
-void Visibility::find(std::span<const Ray> rays, RandomStream& random, std::vector<Spectrum>& transmittance) {
-  cross_surfaces(rays, transmittance);
-  cross_media(rays, random, transmittance);
+void ShadowRays::clear() {
+  rays.clear();
+  keys.clear();
+  crosses_media.clear();
 }
 
-void Visibility::cross_surfaces(std::span<const Ray> rays, std::vector<Spectrum>& transmittance) {
+void ShadowRays::add(const Ray& ray, std::uint32_t key, bool through_media) {
+  rays.push_back(ray);
+  keys.push_back(key);
+  crosses_media.push_back(through_media);
+}
+
+void Visibility::find(const ShadowRays& rays, std::vector<Spectrum>& transmittance) {
   transmittance.resize(rays.size());
   blocked_.resize(rays.size());
-  intersector_.occluded(rays, blocked_);
+  intersector_.occluded(rays.rays, blocked_);
   for (std::size_t i = 0; i < rays.size(); ++i)
-    transmittance[i] = blocked_[i] == 0 ? constant_spectrum(1) : has_glass_ ? cross_glass(rays[i]) : Spectrum{};
+    transmittance[i] = blocked_[i] == 0 ? constant_spectrum(1) : has_glass_ ? cross_glass(rays.rays[i]) : Spectrum{};
+  cross_media(rays, transmittance);
 }
 
-void Visibility::cross_media(std::span<const Ray> rays, RandomStream& random, std::span<Spectrum> transmittance) {
+void Visibility::cross_media(const ShadowRays& rays, std::span<Spectrum> transmittance) {
   open_rays_.clear();
   open_indices_.clear();
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    if (is_zero(transmittance[i])) continue;
-    open_rays_.push_back(rays[i]);
+    if (rays.crosses_media[i] == 0 || is_zero(transmittance[i])) continue;
+    open_rays_.push_back(rays.rays[i]);
     open_indices_.push_back(i);
   }
 
@@ -63,7 +72,7 @@ void Visibility::cross_media(std::span<const Ray> rays, RandomStream& random, st
   optical_depth_.assign(open_rays_.size(), Spectrum{});
   for (auto first = spans_.begin(); first != spans_.end();) {
     const auto last = std::find_if(first, spans_.end(), [&](const auto& s) { return s.medium != first->medium; });
-    add_optical_depths(first->medium, {first, last}, random);
+    add_optical_depths(first->medium, {first, last}, rays);
     first = last;
   }
   for (std::size_t i = 0; i < open_rays_.size(); ++i)
@@ -84,7 +93,7 @@ Spectrum Visibility::cross_glass(Ray ray) const {
   return left;
 }
 
-void Visibility::add_optical_depths(int medium_index, std::span<const MediumSpan> spans, RandomStream& random) {
+void Visibility::add_optical_depths(int medium_index, std::span<const MediumSpan> spans, const ShadowRays& rays) {
   const CompiledMedium& medium = scene_.media[static_cast<std::size_t>(medium_index)];
   const float smallest = smallest_positive(medium.sigma_t);
   if (smallest == 0) return;
@@ -98,11 +107,13 @@ void Visibility::add_optical_depths(int medium_index, std::span<const MediumSpan
     return;
   }
   const CompiledIntegrator& settings = scene_.integrator;
-  const bool random_places = !settings.dda && settings.placement_spread > 0;
   stretches_.clear();
-  for (const MediumSpan& span : spans)
-    stretches_.add(span.entry_index, span.direction_index, span.t_end - span.t_begin,
-                   random_places ? random.next_bits() : 0);
+  for (const MediumSpan& span : spans) {
+    const std::uint32_t ray_key = rays.keys[open_indices_[static_cast<std::size_t>(span.ray)]];
+    const std::uint32_t key = kernel::random_bits(ray_key, static_cast<std::uint32_t>(medium_index),
+                                                  std::bit_cast<std::uint32_t>(span.t_begin), 0);
+    stretches_.add(span.entry_index, span.direction_index, span.t_end - span.t_begin, key);
+  }
   const DensityQuadrature quadrature{medium.linear,
                                      settings.dda,
                                      march_step(scene_, medium, 0),

@@ -15,24 +15,34 @@ namespace brume {
 // edge of the grid's voxels, or for a homogeneous medium 1/64 of the chord.
 float march_step(const CompiledScene& scene, const CompiledMedium& medium, float chord);
 
-// Shadow rays, many at a time. One to each worker: it keeps its arrays from call to call.
+// Shadow rays to be followed together. What comes of one depends on it alone.
+struct ShadowRays {
+  std::vector<Ray> rays;
+  std::vector<std::uint32_t> keys;  // of each one's own random numbers
+  std::vector<std::uint8_t> crosses_media;
+  std::size_t size() const { return rays.size(); }
+  void clear();
+  void add(const Ray& ray, std::uint32_t key, bool through_media = true);
+};
+
+// Follows shadow rays. One to each worker: it keeps its arrays from call to call.
 class Visibility {
  public:
   Visibility(const CompiledScene& scene, const Intersector& intersector, const MediaAlongRay& media);
 
-  // transmittance[i] = the fraction of the light that crosses rays[i], per channel.
-  void find(std::span<const Ray> rays, RandomStream& random, std::vector<Spectrum>& transmittance);
+  // transmittance[i] = the fraction of the light that crosses ray i, per channel: what surfaces leave, and of that what
+  // media leave of rays that cross media.
+  void find(const ShadowRays& rays, std::vector<Spectrum>& transmittance);
 
-  // The two parts of that: what surfaces leave, and that times what media leave, where it is not 0 already.
-  void cross_surfaces(std::span<const Ray> rays, std::vector<Spectrum>& transmittance);
-  void cross_media(std::span<const Ray> rays, RandomStream& random, std::span<Spectrum> transmittance);
+  // The second part of that, where transmittance[i] is not 0 already.
+  void cross_media(const ShadowRays& rays, std::span<Spectrum> transmittance);
 
   // A place where more than max_active_media media overlap, once a ray has met one.
   std::optional<kernel::vec3> too_many_media() const { return too_many_media_; }
 
  private:
   Spectrum cross_glass(Ray ray) const;
-  void add_optical_depths(int medium_index, std::span<const MediumSpan> spans, RandomStream& random);
+  void add_optical_depths(int medium_index, std::span<const MediumSpan> spans, const ShadowRays& rays);
 
   const CompiledScene& scene_;
   const Intersector& intersector_;
@@ -42,7 +52,7 @@ class Visibility {
 
   std::vector<std::uint8_t> blocked_;
   std::vector<Ray> open_rays_;
-  std::vector<std::size_t> open_indices_;
+  std::vector<std::size_t> open_indices_;  // of the open rays
   std::vector<MediumSpan> spans_;
   std::vector<Crossing> crossings_;
   std::vector<Spectrum> optical_depth_;  // of the open rays

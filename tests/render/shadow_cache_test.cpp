@@ -56,8 +56,9 @@ float worst_error(std::size_t light, kernel::vec3 shift) {
     const auto coordinate = [&] { return 1.8f * random.next() - 0.9f; };
     const float x = coordinate(), y = coordinate(), z = coordinate();
     const kernel::vec3 p(x, y, z);
-    const Ray ray = sample_light(scene, scene.lights[light], p, nullptr, random).ray;
-    visibility.find({&ray, 1}, random, truth);
+    ShadowRays ray;
+    ray.add(sample_light(scene, scene.lights[light], p, nullptr, random).ray, random.next_bits());
+    visibility.find(ray, truth);
     worst = std::max(worst, std::abs(cache.transmittance(light, 0, p + shift)[0] - truth[0][0]));
   }
   return worst;
