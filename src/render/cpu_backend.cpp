@@ -62,7 +62,8 @@ class TileRenderer {
     const RandomStream::Pair place = random.next_pair();
     const FilterSample f = filter_.sample(place.u, place.v);
     const double px = picture_x + 0.5 + static_cast<double>(f.x), py = picture_y + 0.5 + static_cast<double>(f.y);
-    const Ray ray = camera_ray(scene_.camera, px, py);
+    const RandomStream::Pair lens = scene_.camera.has_lens() ? random.next_pair() : RandomStream::Pair{0.5f, 0.5f};
+    const Ray ray = camera_ray(scene_.camera, px, py, lens.u, lens.v);
     Foreground foreground;
     const Spectrum radiance =
         classic_ ? classic_->radiance(ray, random, foreground) : reference_->radiance(ray, random, foreground);

@@ -59,6 +59,8 @@ struct CameraDescription {
   Transform world_from_camera;            // camera space: +x right, +y up, +z forward
   double fov = 90;                        // degrees across the shorter image side
   std::array<double, 4> screen_window{};  // x0 x1 y0 y1; all 0: from the aspect of the film
+  double lens_radius = 0;                 // in camera space, as is the next; 0: a pinhole
+  double focal_distance = 1e6;            // along the axis
   double shutter_open = 0, shutter_close = 1;
   std::string medium;  // what the Camera directive records: the outside medium then current, or ""
   Location location;
