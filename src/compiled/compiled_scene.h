@@ -174,7 +174,8 @@ struct CompiledShape {
   std::int32_t material = -1;  // below 0: no surface
   std::int32_t boundary = -1;  // below 0: the same media on both sides
   std::int32_t light = -1;     // the area light that it is; below 0: none
-  bool is_textured = false;    // its material depends on where a hit is
+  std::int32_t alpha = -1;     // the texture of the share of rays that meet it; below 0: all do
+  bool is_textured = false;    // its material or its alpha depends on where a hit is
 };
 
 // A part of the scene's shapes that is placed as a whole.

@@ -290,12 +290,16 @@ struct ShapeDescription {
   // By ReverseOrientation alone; a transform that mirrors flips the normal too, as pbrt's does.
   bool reverse_orientation = false;
   MaterialDescription material;
-  std::string inside, outside;  // media; "" is none
+  Textured alpha = constant_spectrum(1);  // the share of rays that meet it; the others pass
+  std::string inside, outside;            // media; "" is none
   std::optional<AreaLight> light{};
   std::variant<SphereShape, TriangleMeshShape, BilinearMeshShape, QuadShape, DiskShape, CylinderShape, VolumeShape>
       kind;
   Location location;
 };
+
+// Whether rays may pass it.
+inline bool is_cut_out(const ShapeDescription& shape) { return shape.alpha != Textured(constant_spectrum(1)); }
 
 // Shapes that appear where instances place them. Their world_from_object leads to the space of the object.
 struct ObjectDescription {

@@ -352,6 +352,7 @@ class Writer {
       if (s.light) area_light(*s.light);
     }
     std::visit([&](const auto& kind) { shape_kind(kind); }, s.kind);
+    if (is_cut_out(s)) textured("alpha", s.alpha, true);
     end_block();
   }
 
