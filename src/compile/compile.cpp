@@ -72,6 +72,8 @@ void Compiler::add_camera() {
   c.dx = scale * (window[1] - window[0]) / width;
   c.y0 = scale * window[3];
   c.dy = -scale * (window[3] - window[2]) / height;
+  c.lens_radius = camera.lens_radius;
+  c.focal_distance = camera.focal_distance;
 }
 
 void Compiler::add_integrator() {

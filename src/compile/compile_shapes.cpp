@@ -95,6 +95,12 @@ std::vector<CompiledQuadric> compile_cylinder(const ShapeDescription& shape, con
   return all;
 }
 
+// Of the body that the shape is the surface of; null where it absorbs nothing.
+const Spectrum* absorption_of(const ShapeDescription& shape) {
+  const auto* phong = std::get_if<BlinnPhongMaterial>(&shape.material);
+  return phong && !is_zero(phong->refraction) && !is_zero(phong->absorption) ? &phong->absorption : nullptr;
+}
+
 }  // namespace
 
 bool flips_normal(const ShapeDescription& shape) {
@@ -125,7 +131,10 @@ void Compiler::add_shape(const ShapeDescription& shape) {
   }
   CompiledShape compiled;
   if (!std::holds_alternative<InterfaceMaterial>(shape.material)) compiled.material = material_index(shape.material);
-  if (inside != outside) {
+  if (is_cut_out(shape)) {
+    check_cut_out(shape);
+    compiled.alpha = operand(shape.alpha);
+  } else if (inside != outside) {
     compiled.boundary = static_cast<std::int32_t>(compiled_.boundaries.size());
     compiled_.boundaries.push_back({inside, outside});
   }
@@ -134,13 +143,22 @@ void Compiler::add_shape(const ShapeDescription& shape) {
   for (CompiledShape& part : parts) {
     part.material = compiled.material;
     part.boundary = compiled.boundary;
-    part.is_textured = part.material >= 0 && is_textured(compiled_.materials[static_cast<std::size_t>(part.material)]);
+    part.alpha = compiled.alpha;
+    part.is_textured = part.material >= 0 &&
+                       (is_textured(compiled_.materials[static_cast<std::size_t>(part.material)]) || part.alpha >= 0);
   }
   if (shape.light && compiled.material >= 0) add_area_lights(*shape.light, parts);
   compiled_.shapes.insert(compiled_.shapes.end(), parts.begin(), parts.end());
-  if (const auto* phong = std::get_if<BlinnPhongMaterial>(&shape.material);
-      phong && !is_zero(phong->refraction) && !is_zero(phong->absorption))
-    add_absorption(std::move(parts), phong->absorption);
+  if (const Spectrum* absorption = absorption_of(shape)) add_absorption(std::move(parts), *absorption);
+}
+
+// A ray that passes a cut-out is as far into media as before, so a cut-out bounds none.
+void Compiler::check_cut_out(const ShapeDescription& shape) {
+  const char* what = shape.light                                              ? "shines"
+                     : !shape.inside.empty() && shape.inside != shape.outside ? "has a medium inside"
+                     : absorption_of(shape)                                   ? "absorbs"
+                                                                              : nullptr;
+  if (what) error(shape.location, std::string("\"alpha\" of a shape that ") + what + " must be 1");
 }
 
 void Compiler::add_absorption(std::vector<CompiledShape> parts, const Spectrum& sigma_a) {

@@ -115,7 +115,7 @@ struct CompiledImage {
 struct CompiledMaterial {
   enum class Kind { blinn_phong, conductor, coated_diffuse } kind = Kind::blinn_phong;
   Spectrum diffuse, specular, mirror, refraction;
-  Spectrum ambient;  // colour under the scene's ambient light
+  Spectrum ambient;                                         // colour under the scene's ambient light
   std::int32_t diffuse_texture = -1, ambient_texture = -1;  // at or above 0: in place of diffuse and ambient
   float shininess = 1, metallic = 0;
   float highlight_scale = 0;       // c
@@ -174,7 +174,8 @@ struct CompiledShape {
   std::int32_t material = -1;  // below 0: no surface
   std::int32_t boundary = -1;  // below 0: the same media on both sides
   std::int32_t light = -1;     // the area light that it is; below 0: none
-  bool is_textured = false;    // its material depends on where a hit is
+  std::int32_t alpha = -1;     // the texture of the share of rays that meet it; below 0: all do
+  bool is_textured = false;    // its material or its alpha depends on where a hit is
 };
 
 // A part of the scene's shapes that is placed as a whole.
@@ -231,8 +232,11 @@ struct CompiledEnvironment {
 
 struct CompiledCamera {
   Transform world_from_camera;
-  // Camera-space ray through the picture's point (x, y), in pixels from the top left: (x0 + x dx, y0 + y dy, 1).
+  // Camera-space ray through the picture's point (x, y), in pixels from the top left, and the middle of the lens:
+  // (x0 + x dx, y0 + y dy, 1).
   double x0 = 0, dx = 0, y0 = 0, dy = 0;
+  double lens_radius = 0, focal_distance = 1e6;  // in camera space
+  bool has_lens() const { return lens_radius > 0; }
 };
 
 // Where random numbers come from: render/random_stream.h.

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "intersect/attached_shape.h"
+#include "intersect/cut_outs.h"
 
 namespace brume {
 
@@ -71,8 +72,11 @@ struct Intersector::Embree {
   Layers world;
   std::vector<Layers> objects;
   std::deque<AttachedShape> attached;  // which never moves them
+  const bool has_cut_outs;
 
-  explicit Embree(const CompiledScene& s) : scene(s) {
+  explicit Embree(const CompiledScene& s)
+      : scene(s),
+        has_cut_outs(std::any_of(s.shapes.begin(), s.shapes.end(), [](const auto& x) { return x.alpha >= 0; })) {
     device = rtcNewDevice("threads=1,set_affinity=0");
     if (!device) throw std::runtime_error("Embree cannot start on this machine");
     for (const CompiledObject& object : scene.objects)
@@ -150,6 +154,21 @@ struct Intersector::Embree {
 
   unsigned first_instance() const { return scene.world.shape_count; }
 
+  // The first surface between t_begin and the end of the ray, cut-outs included.
+  bool nearest(const Ray& ray, float t_begin, SurfaceHit& hit) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit r{};
+    const vec3 o = ray.origin, d = ray.direction;
+    r.ray = {o.x, o.y, o.z, t_begin, d.x, d.y, d.z, 0, ray.t_max, ~0u, 0, 0};
+    r.hit.geomID = r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(world.surfaces, &context, &r);
+    if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+    hit.t = r.ray.tfar;
+    describe(r.hit, ray, hit);
+    return true;
+  }
+
   // Fills in what else there is to say of a hit whose t is known.
   void describe(const RTCHit& rtc, const Ray& ray, SurfaceHit& hit) const {
     hit.position = ray.at(hit.t);
@@ -221,27 +240,12 @@ bool Intersector::has_boundaries() const { return embree_->world.boundaries != n
 
 bool Intersector::nearest_surface(const Ray& ray, SurfaceHit& hit) const {
   if (!has_surfaces()) return false;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  RTCRayHit r{};
-  r.ray = {ray.origin.x,
-           ray.origin.y,
-           ray.origin.z,
-           0,
-           ray.direction.x,
-           ray.direction.y,
-           ray.direction.z,
-           0,
-           ray.t_max,
-           ~0u,
-           0,
-           0};
-  r.hit.geomID = r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(embree_->world.surfaces, &context, &r);
-  if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-  hit.t = r.ray.tfar;
-  embree_->describe(r.hit, ray, hit);
-  return true;
+  float t_begin = 0;
+  while (embree_->nearest(ray, t_begin, hit)) {
+    if (!passes(embree_->scene, ray, hit)) return true;
+    t_begin = std::nextafter(1.000001f * std::max(hit.t, t_begin), far_away);  // the same place is not met again
+  }
+  return false;
 }
 
 void Intersector::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
@@ -261,6 +265,10 @@ void Intersector::occluded(std::span<const Ray> rays, std::span<std::uint8_t> bl
     rtcOccluded16(valid, embree_->world.surfaces, &context, &packet);
     for (int i = 0; i < n; ++i) blocked[first + static_cast<std::size_t>(i)] = packet.tfar[i] < 0;
   }
+  if (!embree_->has_cut_outs) return;
+  SurfaceHit hit;
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    if (blocked[i]) blocked[i] = nearest_surface(rays[i], hit);
 }
 
 void Intersector::crossings(std::span<const Ray> rays, std::vector<Crossing>& found) const {

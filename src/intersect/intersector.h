@@ -50,7 +50,7 @@ class Intersector {
   bool has_surfaces() const;
   bool has_boundaries() const;
 
-  // The first surface along the ray; shapes without a material do not count.
+  // The first surface along the ray; shapes without a material do not count, nor cut-outs that the ray passes.
   bool nearest_surface(const Ray& ray, SurfaceHit& hit) const;
 
   // blocked[i] = 1 where a surface lies within (0, t_max) of rays[i], else 0.

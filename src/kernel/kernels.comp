@@ -22,7 +22,7 @@ void load_u32_pair(uint array, uint pair, out uint first, out uint second) {
 #include "kernel/all.inl"
 #include "kernel/phase_dispatch.glsl"
 
-const uint result_count = 30;
+const uint result_count = 31;
 
 void main() {
   uint id = gl_GlobalInvocationID.x;
@@ -72,6 +72,9 @@ void main() {
   results[out_index + 25] = aimed_density(axis, normalize(direction));
   results[out_index + 26] = aimed_strength(u[6], u[7], u[8]);
   results[out_index + 28] = cone_falloff(u[6], u[7], u[8]);
+  float disk_x, disk_y;
+  disk_point(u[6], u[7], disk_x, disk_y);
+  results[out_index + 30] = disk_x + disk_y;
 
   uint first, second;
   sobol_pair(words[0], id & 63u, id >> 6, 16u, words[1], 0u, first, second);

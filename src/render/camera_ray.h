@@ -12,13 +12,22 @@ inline kernel::vec3 camera_axis(const CompiledCamera& camera) {
   return {static_cast<float>(axis.x), static_cast<float>(axis.y), static_cast<float>(axis.z)};
 }
 
-// Through the point (x, y), in pixels from the top left of the whole picture.
-inline Ray camera_ray(const CompiledCamera& camera, double x, double y) {
-  const Vector3 origin = camera.world_from_camera.point({});
+// Through the point (x, y), in pixels from the top left of the whole picture, from the place on the lens that the
+// numbers u and v in [0, 1) stand for; (1/2, 1/2) is its middle. The lens is thin: with (d, 1) the direction through
+// its middle, all rays of the point (x, y) meet at focal_distance (d, 1), so that from the place l they go along (d - l
+// / focal_distance, 1).
+// Source: R. L. Cook, T. Porter and L. Carpenter, "Distributed Ray Tracing", SIGGRAPH 1984.
+inline Ray camera_ray(const CompiledCamera& camera, double x, double y, float u, float v) {
+  float disk_x, disk_y;
+  kernel::disk_point(u, v, disk_x, disk_y);
+  const double lens_x = camera.lens_radius * static_cast<double>(disk_x);
+  const double lens_y = camera.lens_radius * static_cast<double>(disk_y);
+  const Vector3 origin = camera.world_from_camera.point({lens_x, lens_y, 0});
   const Vector3 direction =
-      normalize(camera.world_from_camera.vector({camera.x0 + x * camera.dx, camera.y0 + y * camera.dy, 1}));
-  const auto to_float = [](Vector3 v) {
-    return kernel::vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
+      normalize(camera.world_from_camera.vector({camera.x0 + x * camera.dx - lens_x / camera.focal_distance,
+                                                 camera.y0 + y * camera.dy - lens_y / camera.focal_distance, 1}));
+  const auto to_float = [](Vector3 p) {
+    return kernel::vec3(static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z));
   };
   return {to_float(origin), to_float(direction), far_away};
 }

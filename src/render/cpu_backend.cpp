@@ -72,7 +72,8 @@ class TileRenderer {
     const RandomStream::Pair place = random.next_pair();
     const FilterSample f = filter_.sample(place.u, place.v);
     const double px = picture_x + 0.5 + static_cast<double>(f.x), py = picture_y + 0.5 + static_cast<double>(f.y);
-    samples_.push_back({camera_ray(scene_.camera, px, py), random, {}, {}});
+    const RandomStream::Pair lens = scene_.camera.has_lens() ? random.next_pair() : RandomStream::Pair{0.5f, 0.5f};
+    samples_.push_back({camera_ray(scene_.camera, px, py, lens.u, lens.v), random, {}, {}});
     places_.push_back({x, y, f.weight});
   }
 

@@ -15,6 +15,9 @@ constexpr int point_dimensions = 14;
 constexpr int sobol_events = 3;
 constexpr int first_point_of_event[sobol_events] = {0, 6, 10};
 constexpr int placement_point = 4;  // two more for the first event: where along the flight light is gathered
+// Of a whole sample: its place in the pixel, those of its path, and last, where the camera has one, its place on the
+// lens, so that the others are the same with and without.
+constexpr int lens_point = 2 + point_dimensions, sample_dimensions = lens_point + 2;
 
 struct PathColumns {
   explicit PathColumns(ColumnMemory& memory);

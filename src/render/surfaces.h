@@ -7,8 +7,8 @@
 
 #include "compiled/compiled_scene.h"
 #include "intersect/intersector.h"
+#include "intersect/textures.h"
 #include "render/random_stream.h"
-#include "render/textures.h"
 
 namespace brume {
 

@@ -58,6 +58,8 @@ VolpathIntegrator::VolpathIntegrator(const CompiledScene& scene, const Intersect
   memory_.make_floats(transmittance_);
   fresh_ = {memory_.words(), memory_.words(), memory_.words()};
   for (float*& column : fresh_points_) column = memory_.floats();
+  // The middle of the lens: what stays where nothing is drawn for it.
+  for (int d = lens_point; d < sample_dimensions; ++d) std::fill_n(fresh_points_[d], path_count, 0.5f);
   std::fill_n(paths_.target, path_count, idle);
   make_jobs();
 }
@@ -227,7 +229,7 @@ void VolpathIntegrator::start_paths(Tile& tile) {
     fresh_.y[i] = static_cast<std::uint32_t>(scene_.crop.y0 + tile.pixels.y0) + pixel / width;
     fresh_.sample[i] = static_cast<std::uint32_t>(tile.first) + target % samples;
   }
-  find_sample_points(scene_, fresh_, fresh, point_dimensions + 2, fresh_points_);
+  find_sample_points(scene_, fresh_, fresh, scene_.camera.has_lens() ? sample_dimensions : lens_point, fresh_points_);
   for (std::uint32_t i = 0; i < fresh; ++i) {
     start_path(idle_.back(), i, tile.next + i);
     idle_.pop_back();
@@ -240,7 +242,8 @@ void VolpathIntegrator::start_path(std::uint32_t path, std::uint32_t fresh, std:
   const FilterSample place = filter_.sample(fresh_points_[0][fresh], fresh_points_[1][fresh]);
   filter_weights_[target] = place.weight;
   const Ray ray =
-      camera_ray(scene_.camera, x + 0.5 + static_cast<double>(place.x), y + 0.5 + static_cast<double>(place.y));
+      camera_ray(scene_.camera, x + 0.5 + static_cast<double>(place.x), y + 0.5 + static_cast<double>(place.y),
+                 fresh_points_[lens_point][fresh], fresh_points_[lens_point + 1][fresh]);
   set(paths_.ray.origin, path, ray.origin);
   set(paths_.ray.direction, path, ray.direction);
   paths_.ray.t_max[path] = far_away;

@@ -92,7 +92,7 @@ class VolpathIntegrator {
   float* transmittance_[3] = {};
   std::vector<SurfaceHit> hits_;  // by path; shape below 0: nothing ahead
   SampleColumns fresh_;
-  float* fresh_points_[point_dimensions + 2] = {};
+  float* fresh_points_[sample_dimensions] = {};
 
   LightTable all_lights_, point_lights_, other_lights_;
   std::vector<ScatterJob> jobs_;            // by medium: at collisions

@@ -59,6 +59,8 @@ struct CameraDescription {
   Transform world_from_camera;            // camera space: +x right, +y up, +z forward
   double fov = 90;                        // degrees across the shorter image side
   std::array<double, 4> screen_window{};  // x0 x1 y0 y1; all 0: from the aspect of the film
+  double lens_radius = 0;                 // in camera space, as is the next; 0: a pinhole
+  double focal_distance = 1e6;            // along the axis
   double shutter_open = 0, shutter_close = 1;
   std::string medium;  // what the Camera directive records: the outside medium then current, or ""
   Location location;
@@ -288,12 +290,16 @@ struct ShapeDescription {
   // By ReverseOrientation alone; a transform that mirrors flips the normal too, as pbrt's does.
   bool reverse_orientation = false;
   MaterialDescription material;
-  std::string inside, outside;  // media; "" is none
+  Textured alpha = constant_spectrum(1);  // the share of rays that meet it; the others pass
+  std::string inside, outside;            // media; "" is none
   std::optional<AreaLight> light{};
   std::variant<SphereShape, TriangleMeshShape, BilinearMeshShape, QuadShape, DiskShape, CylinderShape, VolumeShape>
       kind;
   Location location;
 };
+
+// Whether rays may pass it.
+inline bool is_cut_out(const ShapeDescription& shape) { return shape.alpha != Textured(constant_spectrum(1)); }
 
 // Shapes that appear where instances place them. Their world_from_object leads to the space of the object.
 struct ObjectDescription {

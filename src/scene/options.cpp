@@ -39,9 +39,8 @@ void Reader::camera() {
   coordinate_systems_["camera"] = scene_.camera.world_from_camera;
   scene_.camera.fov = p.number("fov", 90, Range::between(0, 180));
   screen_window(p);
-  if (p.number("lensradius", 0) != 0)
-    p.value_error(*p.find(ParameterType::float_, "lensradius"), 0, "must be 0: depth of field is not supported yet");
-  p.ignore({"float focaldistance"});
+  scene_.camera.lens_radius = p.number("lensradius", 0, Range::at_least(0));
+  scene_.camera.focal_distance = p.number("focaldistance", 1e6, Range::above(0));
   const double open = p.number("shutteropen", 0), close = p.number("shutterclose", 1);
   if (!(close > open))
     p.error(p.place(), fmt::format("the shutter of {} must close after it opens; it opens at {} and closes "

@@ -223,8 +223,8 @@ void Reader::shape() {
   if (type == "bilinearmesh") shape.kind = read_bilinear_mesh(p);
   if (type == "plymesh") shape.kind = ply_mesh(p);
   if (type == "objmesh") shape.kind = obj_mesh(p);
-  if (p.number("alpha", 1) != 1)
-    p.value_error(*p.find(ParameterType::float_, "alpha"), 0, "must be 1: cut-outs are not supported yet");
+  shape.alpha = constant_spectrum(static_cast<float>(p.number("alpha", 1, Range::from_to(0, 1))));
+  use_texture(p, "alpha", true, shape.alpha);
   p.finish();
   add_shape(std::move(shape));
 }

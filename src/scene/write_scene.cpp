@@ -157,6 +157,8 @@ class Writer {
     line("Camera \"perspective\" \"float fov\" {}", camera.fov);
     const std::array<double, 4>& w = camera.screen_window;
     if (w != std::array<double, 4>{}) line("  \"float screenwindow\" [{} {} {} {}]", w[0], w[1], w[2], w[3]);
+    if (camera.lens_radius != 0 || camera.focal_distance != CameraDescription().focal_distance)
+      line("  \"float lensradius\" {} \"float focaldistance\" {}", camera.lens_radius, camera.focal_distance);
     if (camera.shutter_open != 0 || camera.shutter_close != 1)
       line("  \"float shutteropen\" {} \"float shutterclose\" {}", camera.shutter_open, camera.shutter_close);
     // What the Camera directive records lasts; nothing below is to inherit it.
@@ -350,6 +352,7 @@ class Writer {
       if (s.light) area_light(*s.light);
     }
     std::visit([&](const auto& kind) { shape_kind(kind); }, s.kind);
+    if (is_cut_out(s)) textured("alpha", s.alpha, true);
     end_block();
   }
 

@@ -68,6 +68,7 @@ inline void call_directions(const F* in, F* out, const TestGrid&) {
     *out++ = direction.z;
   }
 }
+inline void call_disk_point(const F* in, F* out, const TestGrid&) { disk_point(in[0], in[1], out[0], out[1]); }
 inline void call_aimed_density(const F* in, F* out, const TestGrid&) {
   out[0] = aimed_density(normalize(call_vec3(in)), normalize(call_vec3(in + 3)));
 }
@@ -167,7 +168,7 @@ constexpr KernelCall kernel_calls[] = {
     CALL(majorant_walk, 6, 24),   CALL(grid_stochastic, 5, 1),
     CALL(ball_span, 6, 5),        CALL(cone_falloff, 3, 1),
     CALL(emission_factor, 3, 3),  CALL(emission_along_flights, 1, 1),
-    CALL(grid_is_empty, 3, 2),
+    CALL(grid_is_empty, 3, 2),    CALL(disk_point, 2, 2),
 #include "kernel/phase_list.inl"
 };
 #undef PHASE

@@ -106,6 +106,7 @@ std::map<std::string, Agreement, std::less<>> agreements() {
   // A grazing ray's chord is the root of a difference of nearly equal numbers.
   all["ball_span"] = {2, 2e-3, [](int n, int a) { return uniform(n, a, -2, 2); }};
   all["directions"] = {8, 4e-7, [](int n, int a) { return uniform(n, a, a < 3 ? -1 : 0, 1); }};
+  all["disk_point"] = {8, 2e-7, [](int n, int a) { return n % 64 ? uniform(n, a, 0, 1) : 0.5f; }};
   all["aimed_density"] = {64, 1e-6, range(-1, 1)};
   all["aimed_strength"] = {2, 0, range(0.1f, 2)};
   all["cone_falloff"] = {2, 3e-7, [](int n, int a) { return uniform(n, a, a == 2 ? 0.1f : -1, a == 1 ? 0 : 1); }};

@@ -1,5 +1,5 @@
 // Textures: exact look-ups in pictures without any symmetry, and textured surfaces in all integrators.
-#include "render/textures.h"
+#include "intersect/textures.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Film, Option and Import.
+// Film, Camera, Option and Import.
 #include <filesystem>
 #include <fstream>
 
@@ -21,6 +21,16 @@ TEST(ReadFilm, ExposureWhiteBalanceAndColourSpace) {
   std::vector<Diagnostic> warnings;
   EXPECT_EQ(scene_of("Film \"rgb\" \"float scale\" 3 WorldBegin", &warnings).film.iso, 300);
   EXPECT_EQ(warnings.size(), 1u);
+}
+
+TEST(ReadCamera, TheLens) {
+  const CameraDescription pinhole = scene_of("Camera \"perspective\" WorldBegin").camera;
+  EXPECT_EQ(pinhole.lens_radius, 0);
+  EXPECT_EQ(pinhole.focal_distance, 1e6);
+  const CameraDescription lens =
+      scene_of("Camera \"perspective\" \"float lensradius\" 0.125 \"float focaldistance\" 7 WorldBegin").camera;
+  EXPECT_EQ(lens.lens_radius, 0.125);
+  EXPECT_EQ(lens.focal_distance, 7);
 }
 
 class Import : public testing::Test {

@@ -63,6 +63,7 @@ void expect_equal(const ShapeDescription& a, const ShapeDescription& b) {
   EXPECT_EQ(a.reverse_orientation, b.reverse_orientation);
   EXPECT_EQ(a.inside, b.inside);
   EXPECT_EQ(a.outside, b.outside);
+  EXPECT_EQ(a.alpha, b.alpha);
   ASSERT_EQ(a.material.index(), b.material.index());
   if (const auto* diffuse = std::get_if<DiffuseMaterial>(&a.material)) {
     EXPECT_EQ(diffuse->reflectance, std::get<DiffuseMaterial>(b.material).reflectance);
@@ -216,6 +217,8 @@ void expect_equal(const SceneDescription& a, const SceneDescription& b) {
   expect_equal(a.camera.world_from_camera, b.camera.world_from_camera, 1e-14);
   EXPECT_EQ(a.camera.fov, b.camera.fov);
   EXPECT_EQ(a.camera.screen_window, b.camera.screen_window);
+  EXPECT_EQ(a.camera.lens_radius, b.camera.lens_radius);
+  EXPECT_EQ(a.camera.focal_distance, b.camera.focal_distance);
   EXPECT_EQ(a.camera.medium, b.camera.medium);
   ASSERT_EQ(a.media.size(), b.media.size());
   for (std::size_t i = 0; i < a.media.size(); ++i) expect_equal(a.media[i], b.media[i]);
@@ -263,6 +266,15 @@ TEST(WriteScene, ExposureAndColourSpaceReadBackTheSame) {
   scene.camera.shutter_open = 0.25;
   scene.camera.shutter_close = 0.3;
   scene.lights.push_back({PointLight{{}, {{0.1f, 0.7f, 3}}}, {}});
+  expect_round_trip(scene);
+}
+
+TEST(WriteScene, TheLensReadsBackTheSame) {
+  SceneDescription scene;
+  scene.camera.lens_radius = 0.0625;
+  scene.camera.focal_distance = 7.3;
+  expect_round_trip(scene);
+  scene.camera.lens_radius = 0;  // says nothing then, and is kept
   expect_round_trip(scene);
 }
 

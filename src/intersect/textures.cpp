@@ -1,4 +1,4 @@
-#include "render/textures.h"
+#include "intersect/textures.h"
 
 #include <algorithm>
 #include <cmath>
