@@ -21,7 +21,7 @@ variant() {
 
 picture cloud --example --resolution 720x405 --spp 256
 picture cloud_single --example --resolution 480x300 --spp 8 --integrator classic
-picture cloud_multiple --example --resolution 480x300 --spp 128
+picture cloud_multiple --example --resolution 480x300 --spp 512
 picture surfaces scenes/surfaces.pbrt --resolution 480x300 --spp 256
 picture two_balls scenes/two_balls.pbrt
 
@@ -53,10 +53,10 @@ variant volume_shadow_binary volume_shadow 'Attribute "medium" "float scale" 100
 
 picture lamp_in_fog scenes/lamp_in_fog.pbrt --resolution 480x300 --spp 256
 picture smoke_by_a_lamp scenes/smoke_by_a_lamp.pbrt --spp 512
-picture fire scenes/fire.pbrt --resolution 240x360 --spp 1024
+picture fire scenes/fire.pbrt --spp 512
 picture fog scenes/fog.pbrt --resolution 480x240 --spp 512
-picture liquid scenes/liquid.pbrt --resolution 480x240 --spp 512
-picture two_clouds scenes/two_clouds.pbrt --resolution 480x300 --spp 128
+picture liquid scenes/liquid.pbrt --resolution 400x200 --spp 192
+picture two_clouds scenes/two_clouds.pbrt --resolution 480x300 --spp 512
 
 if [[ founding == "$only"* ]]; then
   volumes=$(mktemp -d)
