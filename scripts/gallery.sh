@@ -50,6 +50,7 @@ done
 
 picture volume_shadow scenes/volume_shadow.pbrt
 variant volume_shadow_binary volume_shadow 'Attribute "medium" "float scale" 100000'
+picture dyes scenes/dyes.pbrt
 
 picture lamp_in_fog scenes/lamp_in_fog.pbrt --resolution 480x300 --spp 256
 picture smoke_by_a_lamp scenes/smoke_by_a_lamp.pbrt --spp 512
