@@ -5,6 +5,7 @@
 #include "lanes/instruction_set.h"
 #include "render/cases.h"
 #include "render/path_tracers.h"
+#include "sanitized.h"
 
 namespace brume {
 namespace {
@@ -26,14 +27,10 @@ class Transport : public ::testing::TestWithParam<std::tuple<Case, const char*>>
   // The sets below the best; none where the integrator has no lanes. Under sanitizers one set is enough, since the
   // others run the same code.
   std::vector<InstructionSet> lower_sets() const {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    return {};
-#else
-    if (case_.scene.integrator.name != "volpath") return {};
+    if (sanitized || case_.scene.integrator.name != "volpath") return {};
     std::vector<InstructionSet> all = available_instruction_sets();
     all.erase(all.begin());
     return all;
-#endif
   }
 
   // Paths are the same on all sets but for rounding: what a lower set finds follows from the best one's estimate and
