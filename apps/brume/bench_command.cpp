@@ -43,15 +43,14 @@ Arguments parse_arguments(const std::vector<std::string>& given) {
   Arguments a;
   std::vector<std::string> sizes, sparse_sizes;
   std::string seconds, threads;
-  CLI::App app;
-  app.set_help_flag();
-  app.add_flag("-h,--help", a.help);
-  app.add_flag("--json", a.json);
-  app.add_option("--size", sizes)->allow_extra_args(false);
-  app.add_option("--sparse", sparse_sizes)->allow_extra_args(false);
-  app.add_option("--time", seconds);
-  app.add_option("--nthreads", threads);
-  parse(app, given);
+  CommandLine line;
+  line.flag("-h,--help", a.help);
+  line.flag("--json", a.json);
+  line.options("--size", sizes);
+  line.options("--sparse", sparse_sizes);
+  line.option("--time", seconds);
+  line.option("--nthreads", threads);
+  line.parse(given);
   if (a.help) return a;
   if (!sizes.empty() || !sparse_sizes.empty()) {
     a.options.sizes = parse_sizes("--size", sizes);

@@ -1,5 +1,6 @@
 #include "command_line.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -45,17 +46,32 @@ std::string unexpected(const CLI::App& app, const std::string& argument) {
 
 }  // namespace
 
-void parse(CLI::App& app, std::vector<std::string> arguments) {
+CommandLine::CommandLine() : app_(std::make_unique<CLI::App>()) {
+  app_->set_help_flag();  // help is ours
   // What is left over is looked at here and not by CLI11, whose message could not name the nearest option.
-  app.allow_extras();
+  app_->allow_extras();
+}
+CommandLine::~CommandLine() = default;
+
+void CommandLine::flag(const std::string& names, bool& value) { app_->add_flag(names, value); }
+void CommandLine::option(const std::string& names, std::string& value) { app_->add_option(names, value); }
+void CommandLine::option(const std::string& names, std::optional<std::string>& value) {
+  app_->add_option(names, value);
+}
+void CommandLine::options(const std::string& names, std::vector<std::string>& values) {
+  CLI::Option* const option = app_->add_option(names, values);
+  if (names.starts_with('-')) option->allow_extra_args(false);  // one value each time
+}
+
+void CommandLine::parse(std::vector<std::string> arguments) {
   std::reverse(arguments.begin(), arguments.end());  // the order in which CLI11 takes them
   try {
-    app.parse(arguments);
+    app_->parse(arguments);
   } catch (const CLI::ParseError& e) {
     throw UsageError(e.what());
   }
-  if (const std::vector<std::string> extras = app.remaining(); !extras.empty())
-    throw UsageError(unexpected(app, extras.front()));
+  if (const std::vector<std::string> extras = app_->remaining(); !extras.empty())
+    throw UsageError(unexpected(*app_, extras.front()));
 }
 
 std::int64_t parse_number(const std::string& option, const std::string& text, std::int64_t lo, std::int64_t hi) {

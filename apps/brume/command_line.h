@@ -1,8 +1,9 @@
 // What the commands share in reading their arguments.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -10,14 +11,34 @@
 
 #include "brume/parameter.h"
 
+namespace CLI {
+class App;
+}
+
 // Arguments that make no sense; what() is ready to be shown.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// Parses; throws UsageError, which for an unknown option names the nearest valid one.
-void parse(CLI::App& app, std::vector<std::string> arguments);
+// What a command takes, and where its values go. Names are as CLI11 has them: "-o,--output", or "FILE" for an argument
+// that is known by its place. CLI11 itself is included by command_line.cpp alone: it takes longer to compile than all
+// else in a command.
+class CommandLine {
+ public:
+  CommandLine();
+  ~CommandLine();
+  void flag(const std::string& names, bool& value);
+  void option(const std::string& names, std::string& value);
+  void option(const std::string& names, std::optional<std::string>& value);
+  // May be repeated.
+  void options(const std::string& names, std::vector<std::string>& values);
+  // Throws UsageError, which for an unknown option names the nearest valid one.
+  void parse(std::vector<std::string> arguments);
+
+ private:
+  std::unique_ptr<CLI::App> app_;
+};
 
 // A whole number from lo to hi, given for `option`; throws UsageError.
 std::int64_t parse_number(const std::string& option, const std::string& text, std::int64_t lo, std::int64_t hi);

@@ -40,15 +40,14 @@ struct Arguments {
 Arguments parse_arguments(const std::vector<std::string>& given) {
   Arguments a;
   std::string block;
-  CLI::App app;
-  app.set_help_flag();
-  app.add_flag("-h,--help", a.help);
-  app.add_flag("--json", a.json);
-  app.add_option("--block", block);
-  app.add_option("A", a.a);
-  app.add_option("B", a.b);
-  app.add_option("REF", a.reference);
-  parse(app, given);
+  CommandLine line;
+  line.flag("-h,--help", a.help);
+  line.flag("--json", a.json);
+  line.option("--block", block);
+  line.option("A", a.a);
+  line.option("B", a.b);
+  line.option("REF", a.reference);
+  line.parse(given);
   if (a.help) return a;
   if (!block.empty()) a.block_size = static_cast<int>(parse_number("--block", block, 1, 65536));
   if (a.b.empty()) throw UsageError("brume compare needs the names of two pictures");

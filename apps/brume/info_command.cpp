@@ -8,11 +8,10 @@
 int info_command(const std::vector<std::string>& arguments) {
   std::string file;
   bool help = false;
-  CLI::App app;
-  app.set_help_flag();
-  app.add_flag("-h,--help", help);
-  app.add_option("FILE", file);
-  parse(app, arguments);
+  CommandLine line;
+  line.flag("-h,--help", help);
+  line.option("FILE", file);
+  line.parse(arguments);
   if (help) {
     std::puts(
         "Usage: brume info FILE     what a file holds\n\n"

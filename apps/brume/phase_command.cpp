@@ -35,15 +35,14 @@ Arguments parse_arguments(const std::vector<std::string>& given) {
   Arguments a;
   std::string step;
   std::vector<std::string> settings;
-  CLI::App app;
-  app.set_help_flag();
-  app.add_option("NAME", a.name);
-  app.add_option("PARAMETERS", settings);
-  app.add_option("--step", step);
-  app.add_option("-o,--output", a.output);
-  app.add_flag("--plot", a.plot);
-  app.add_flag("-h,--help", a.help);
-  parse(app, given);
+  CommandLine line;
+  line.option("NAME", a.name);
+  line.options("PARAMETERS", settings);
+  line.option("--step", step);
+  line.option("-o,--output", a.output);
+  line.flag("--plot", a.plot);
+  line.flag("-h,--help", a.help);
+  line.parse(given);
   if (a.help) return a;
   if (a.name.empty() && (a.plot || !step.empty() || !a.output.empty()))
     throw UsageError("brume phase needs the name of a phase function; without arguments it lists them");

@@ -63,8 +63,7 @@ struct Arguments {
   double seconds = 0;  // 0: no limit
   double exposure = 0;
   bool example = false, strict = false, partial_images = false, variance = false, stats = false, quiet = false,
-       help = false,
-       version = false;
+       help = false, version = false;
   brume::SceneOptions changes;
 };
 
@@ -94,32 +93,31 @@ std::array<Number, 4> parse_window(const std::string& option, const std::string&
 Arguments parse_arguments(const std::vector<std::string>& given) {
   Arguments a;
   std::string samples, seconds, seed, threads, resolution, crop_window, pixel_bounds, exposure;
-  CLI::App app;
-  app.set_help_flag();  // help and version are ours
-  app.add_option("SCENE", a.files);
-  app.add_option("-o,--output", a.outputs)->allow_extra_args(false);
-  app.add_option("--spp", samples);
-  app.add_option("--time", seconds);
-  app.add_option("--seed", seed);
-  app.add_option("--nthreads", threads);
-  app.add_option("--resolution", resolution);
-  app.add_option("--cropwindow", crop_window);
-  app.add_option("--pixelbounds", pixel_bounds);
-  app.add_flag("--quick", a.changes.quick);
-  app.add_option("--exposure", exposure);
-  app.add_option("--integrator", a.changes.integrator);
-  app.add_option("--grid", a.grid);
-  app.add_option("--write-scene", a.write_scene);
-  app.add_flag("--example", a.example);
-  app.add_flag("--strict", a.strict);
-  app.add_flag("--write-partial-images", a.partial_images);
-  app.add_flag("--variance", a.variance);
-  app.add_flag("--stats", a.stats);
-  app.add_option("--stats-json", a.stats_json);
-  app.add_flag("--quiet", a.quiet);
-  app.add_flag("--version", a.version);
-  app.add_flag("-h,--help", a.help);
-  parse(app, given);
+  CommandLine line;
+  line.options("SCENE", a.files);
+  line.options("-o,--output", a.outputs);
+  line.option("--spp", samples);
+  line.option("--time", seconds);
+  line.option("--seed", seed);
+  line.option("--nthreads", threads);
+  line.option("--resolution", resolution);
+  line.option("--cropwindow", crop_window);
+  line.option("--pixelbounds", pixel_bounds);
+  line.flag("--quick", a.changes.quick);
+  line.option("--exposure", exposure);
+  line.option("--integrator", a.changes.integrator);
+  line.option("--grid", a.grid);
+  line.option("--write-scene", a.write_scene);
+  line.flag("--example", a.example);
+  line.flag("--strict", a.strict);
+  line.flag("--write-partial-images", a.partial_images);
+  line.flag("--variance", a.variance);
+  line.flag("--stats", a.stats);
+  line.option("--stats-json", a.stats_json);
+  line.flag("--quiet", a.quiet);
+  line.flag("--version", a.version);
+  line.flag("-h,--help", a.help);
+  line.parse(given);
   if (a.help || a.version) return a;
 
   if (!samples.empty()) a.changes.samples_per_pixel = static_cast<int>(parse_number("--spp", samples, 1, 1 << 24));

@@ -12,16 +12,6 @@ void Box3::include(Vector3 p) {
   }
 }
 
-Vector3 Transform::point(Vector3 p) const {
-  const Vector3 v = vector(p);
-  return {v.x + m[0][3], v.y + m[1][3], v.z + m[2][3]};
-}
-
-Vector3 Transform::vector(Vector3 v) const {
-  return {m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z, m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
-          m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z};
-}
-
 Vector3 Transform::normal(Vector3 n) const { return transposed(inverse(*this), n); }
 
 Vector3 transposed(const Transform& t, Vector3 v) {

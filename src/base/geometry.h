@@ -42,8 +42,14 @@ struct Box3 {
 // An affine map, applied to columns: p' = M p. m[row][column]; the last row is 0 0 0 1.
 struct Transform {
   std::array<std::array<double, 4>, 4> m{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
-  Vector3 point(Vector3 p) const;
-  Vector3 vector(Vector3 v) const;
+  Vector3 point(Vector3 p) const {
+    const Vector3 v = vector(p);
+    return {v.x + m[0][3], v.y + m[1][3], v.z + m[2][3]};
+  }
+  Vector3 vector(Vector3 v) const {
+    return {m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z, m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
+            m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z};
+  }
   // A normal of a surface whose points move by this map: by the inverse transpose; not normalised.
   Vector3 normal(Vector3 n) const;
   double determinant() const;  // of the 3 x 3 part

@@ -1,6 +1,7 @@
 // SceneDescription: a scene as plain structs, the one thing that readers make and that compile takes. Values are
 // checked and in their final units (world units, radians nowhere: angles in degrees as scenes give them), colours are
-// scene-linear Rec.709; each entity remembers where in which file it stood.
+// scene-linear Rec.709; each entity remembers where in which file it stood. The large structs have their special
+// members in description.cpp: otherwise every file that handles scenes compiles them, a third of its time.
 #pragma once
 
 #include <array>
@@ -133,6 +134,13 @@ struct CloudMedium {
 };
 
 struct MediumDescription {
+  MediumDescription();
+  MediumDescription(const MediumDescription&);
+  MediumDescription(MediumDescription&&) noexcept;
+  MediumDescription& operator=(const MediumDescription&);
+  MediumDescription& operator=(MediumDescription&&) noexcept;
+  ~MediumDescription();
+
   std::string name;
   Transform world_from_medium;
   Spectrum sigma_a = constant_spectrum(1), sigma_s = constant_spectrum(1);
@@ -286,6 +294,13 @@ struct AreaLight {
 };
 
 struct ShapeDescription {
+  ShapeDescription();
+  ShapeDescription(const ShapeDescription&);
+  ShapeDescription(ShapeDescription&&) noexcept;
+  ShapeDescription& operator=(const ShapeDescription&);
+  ShapeDescription& operator=(ShapeDescription&&) noexcept;
+  ~ShapeDescription();
+
   Transform world_from_object;
   // By ReverseOrientation alone; a transform that mirrors flips the normal too, as pbrt's does.
   bool reverse_orientation = false;
@@ -350,6 +365,13 @@ struct LightDescription {
 };
 
 struct SceneDescription {
+  SceneDescription();
+  SceneDescription(const SceneDescription&);
+  SceneDescription(SceneDescription&&) noexcept;
+  SceneDescription& operator=(const SceneDescription&);
+  SceneDescription& operator=(SceneDescription&&) noexcept;
+  ~SceneDescription();
+
   FilmDescription film;
   SamplerDescription sampler;
   PixelFilter filter;

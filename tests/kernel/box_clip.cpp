@@ -8,17 +8,14 @@
 #include <cmath>
 
 #include "kernel/scalar.h"
+#include "sanitized.h"
 
 namespace brume {
 namespace {
 
 using kernel::vec3;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int rays = 200000;
-#else
-constexpr int rays = 10000000;
-#endif
+constexpr int rays = sanitized ? 200000 : 10000000;
 
 struct Ray {
   std::array<float, 3> origin, direction, lo, hi;

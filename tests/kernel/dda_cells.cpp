@@ -8,17 +8,14 @@
 #include <string>
 
 #include "kernel/walk.h"
+#include "sanitized.h"
 
 namespace brume {
 namespace {
 
 constexpr float edge = 24;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr std::uint32_t rays = 20000;
-#else
-constexpr std::uint32_t rays = 1000000;
-#endif
+constexpr std::uint32_t rays = sanitized ? 20000 : 1000000;
 
 // How many visits of `a` with a chord above epsilon are not, in order and with that chord, among the visits of `b`.
 int missing(const std::vector<Visit>& a, const std::vector<Visit>& b, double epsilon) {

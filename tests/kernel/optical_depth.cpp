@@ -5,17 +5,14 @@
 
 #include "kernel/test_grids.h"
 #include "kernel/walk.h"
+#include "sanitized.h"
 
 namespace brume {
 namespace {
 
 constexpr int edge = 24;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr std::uint32_t rays = 4000;
-#else
-constexpr std::uint32_t rays = 100000;
-#endif
+constexpr std::uint32_t rays = sanitized ? 4000 : 100000;
 
 // Noise in a brick grid of 16-bit values, and the same values as doubles.
 struct Noise {

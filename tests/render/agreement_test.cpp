@@ -8,6 +8,7 @@
 #include "image/compare.h"
 #include "image/temporary_folder.h"
 #include "render/agreement_scenes.h"
+#include "sanitized.h"
 
 namespace brume {
 namespace {
@@ -127,12 +128,14 @@ SceneDescription scene_called(const std::string& name) {
 // collision of low albedo, roulette then depends on where the collision is.
 TEST(SeedZero, IsLikeAnyOther) {
   const SceneDescription scene = scene_called("grid_under_a_sun_alone");
-  const Image zero = picture(scene, "volpath", 0, 4096), other = picture(scene, "volpath", 5, 4096);
+  const int samples = sanitized ? 64 : 4096;
+  const Image zero = picture(scene, "volpath", 0, samples), other = picture(scene, "volpath", 5, samples);
   std::printf("z %+.2f\n", mean_z(zero, other, 0));
   EXPECT_LE(std::abs(mean_z(zero, other, 0)), 4);
+  if (sanitized) return;
   SceneDescription faulty = scene;
   faulty.media[0].sigma_s = 0.97f * faulty.media[0].sigma_s;
-  EXPECT_GT(std::abs(mean_z(picture(faulty, "volpath", 0, 4096), other, 0)), 8);
+  EXPECT_GT(std::abs(mean_z(picture(faulty, "volpath", 0, samples), other, 0)), 8);
 }
 
 TEST(OneVolumeInTwoWays, AHomogeneousMediumIsAGridOfOnes) {

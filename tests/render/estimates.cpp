@@ -6,11 +6,13 @@
 #include <cmath>
 #include <cstdio>
 
+#include "sanitized.h"
+
 namespace brume {
 
 namespace {
 
-constexpr int pilot_samples = 10000;
+constexpr int pilot_samples = sanitized ? 2000 : 10000;
 constexpr double most_samples = 1e9;
 
 // How many samples bring all channels' standard errors to `relative_error` of what is expected, as a pilot says.
@@ -93,9 +95,7 @@ void expect_estimates(const Estimates& found, const std::vector<Expected>& expec
 
 Estimates expect_estimates(const SceneDescription& scene, const std::vector<Expected>& expected,
                            double relative_error) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  relative_error *= 30;
-#endif
+  if (sanitized) relative_error *= 30;
   const int samples = samples_for(scene, expected, relative_error);
   std::printf("%d samples\n", samples);
   const Estimates found = estimates(with_another_seed(scene), samples);

@@ -136,8 +136,9 @@ TEST(MediaSets, MoreThanSixteenMediaAreAnError) {
   std::vector<MediumDescription> media;
   std::vector<ShapeDescription> shapes;
   for (int i = 0; i < 17; ++i) {
-    media.push_back(homogeneous_medium("m" + std::to_string(i), 0.01f, 0));
-    shapes.push_back(box_shape({-1, -1, -0.01 * i}, {1, 1, 2}, "m" + std::to_string(i)));
+    const std::string name = std::to_string(i);
+    media.push_back(homogeneous_medium(name, 0.01f, 0));
+    shapes.push_back(box_shape({-1, -1, -0.01 * i}, {1, 1, 2}, name));
   }
   EXPECT_THROW(radiance(view(media, shapes)), InputError);
   media.pop_back();
