@@ -23,6 +23,7 @@ picture cloud --example --resolution 720x405 --spp 256
 picture cloud_single --example --resolution 480x300 --spp 8 --integrator classic
 picture cloud_multiple --example --resolution 480x300 --spp 512
 picture surfaces scenes/surfaces.pbrt --resolution 480x300 --spp 256
+picture lens scenes/lens.pbrt
 picture two_balls scenes/two_balls.pbrt
 
 variant steps_coarse steps 'Integrator "classic" "float step" 0.2'
