@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# scripts/coverage.sh: which lines of src the quick tests run, by gcov, file by file and in all. Left out are the long
-# suites of test_render, which compare whole pictures and radiances and run the same lines for minutes.
+# scripts/coverage.sh: which lines of src the tests run, by gcov, file by file and in all. Left out are the tables of
+# transport, which take long and run the same lines as the agreement of the integrators does.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-without_long='-*Nightly*:*Transport*:*PathTracers*:*Agreement*'
+without_long='-*Nightly*:*Transport*'
 build=build/coverage
 tests=(test_scene test_image test_volume test_kernel test_compile test_cli test_render)
 
