@@ -22,7 +22,7 @@ void load_u32_pair(uint array, uint pair, out uint first, out uint second) {
 #include "kernel/all.inl"
 #include "kernel/phase_dispatch.glsl"
 
-const uint result_count = 31;
+const uint result_count = 32;
 
 void main() {
   uint id = gl_GlobalInvocationID.x;
@@ -58,6 +58,7 @@ void main() {
   BrickGrid grid = BrickGrid(arguments.table, arguments.bricks, arguments.table_x, arguments.table_xy, arguments.bits);
   results[out_index + 10] = grid_nearest(grid, origin * 8.0);
   results[out_index + 11] = grid_linear(grid, origin * 8.0);
+  results[out_index + 31] = select(grid_is_empty(grid, true, int(id), 0, 0), 1.0, 0.0);
   Cell cell = grid_cell(grid, 0, 0, 0);
   results[out_index + 12] = cell_mean_linear(cell, 0, 0, 0, origin, direction, 0.0, 0.1);
 
