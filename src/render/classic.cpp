@@ -334,7 +334,8 @@ void ClassicIntegrator::send_shadow_ray(const Ray& ray, RandomStream& random, co
                                         bool through_media) {
   if (is_zero(worth)) return;
   ++counts_.shadow_rays;
-  shadow_rays_.add(ray, random.next_bits(), through_media);
+  const bool marches_at_random = !scene_.integrator.dda && scene_.integrator.placement_spread > 0;
+  shadow_rays_.add(ray, marches_at_random ? random.next_bits() : 0, through_media);
   claims_.push_back({sample_, worth});
   if (claims_.size() == shadow_batch) follow_shadow_rays();
 }
