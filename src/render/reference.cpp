@@ -60,8 +60,8 @@ Spectrum ReferenceIntegrator::radiance(Ray ray, RandomStream& random, Foreground
       ray = continued(ray, hit, sample);
     }
 
-    // Russian roulette on paths that carry little. A half suits albedos near 1, whose paths are long: against a limit of
-    // 0.05, albedo 0.99 needs half the time to the same error; albedo 0.9 up to half more.
+    // Russian roulette on paths that carry little. A half suits albedos near 1, whose paths are long: against a limit
+    // of 0.05, albedo 0.99 needs half the time to the same error; albedo 0.9 up to half more.
     const float survival = std::min(1.0f, max_value(throughput) / 0.5f);
     if (!(random.next() < survival)) return result;
     throughput = (1 / survival) * throughput;
