@@ -12,7 +12,7 @@ namespace brume {
 
 namespace {
 
-constexpr int pilot_samples = sanitized ? 2000 : 10000;
+constexpr int pilot_samples = 10000;
 constexpr double most_samples = 1e9;
 
 // How many samples bring all channels' standard errors to `relative_error` of what is expected, as a pilot says.
