@@ -53,21 +53,20 @@ void append_packed(std::vector<std::uint32_t>& words, std::span<const float, bri
   }
 }
 
-// Marks the empty bricks, the border's too, whose neighbours on the upper sides are empty.
+// Marks the empty bricks, the border's too, whose neighbours on the upper sides are empty. In one pass, since tables
+// can be large: a brick that is not empty takes the mark from its neighbours on the lower sides, which come before it.
 void mark_gaps(BrickGrid& grid) {
-  const std::array<int, 3> last = grid.bricks;
-  const auto is_gap = [&](int x, int y, int z) {
-    for (int corner = 0; corner < 8; ++corner) {
-      const std::array<int, 3> brick{x + (corner & 1), y + (corner >> 1 & 1), z + (corner >> 2)};
-      const bool in_table = brick[0] <= last[0] && brick[1] <= last[1] && brick[2] <= last[2];
-      if (in_table && grid.table[2 * table_index(grid, brick)] != 0) return false;
+  const std::size_t row = static_cast<std::size_t>(grid.bricks[0]) + 2,
+                    layer = row * (static_cast<std::size_t>(grid.bricks[1]) + 2);
+  std::vector<std::uint32_t>& table = grid.table;
+  for (std::size_t i = 0; 2 * i < table.size(); ++i) {
+    if (table[2 * i] == 0) {
+      table[2 * i + 1] = gap_steps;
+      continue;
     }
-    return true;
-  };
-  for (int z = -1; z <= last[2]; ++z)
-    for (int y = -1; y <= last[1]; ++y)
-      for (int x = -1; x <= last[0]; ++x)
-        if (is_gap(x, y, z)) grid.table[2 * table_index(grid, {x, y, z}) + 1] = gap_steps;
+    for (const std::size_t back : {std::size_t{1}, row, row + 1, layer, layer + 1, layer + row, layer + row + 1})
+      if (table[2 * (i - back)] == 0) table[2 * (i - back) + 1] = 0;
+  }
 }
 
 }  // namespace
