@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# scripts/gallery.sh [NAME]: renders the pictures of README.md and docs/ anew, with the release build, in about 20
-# minutes on two cores; with a NAME only those whose names begin with it.
+# scripts/gallery.sh [NAME]: renders the pictures of README.md and docs/ anew, with the release build, in some 20
+# minutes; with a NAME only those whose names begin with it.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 only=${1:-}
