@@ -12,7 +12,7 @@ HWY_BEFORE_NAMESPACE();
 namespace brume {
 namespace HWY_NAMESPACE {
 
-#include "kernel/kernel_calls.inl"
+#include "kernel/cpp_kernel_calls.inl"
 
 void call_lanes(int call, int count, const float* in, float* out, const TestGrid& grid) {
   const KernelCall& kernel_call = kernel_calls[call];
@@ -34,7 +34,7 @@ HWY_AFTER_NAMESPACE();
 namespace brume {
 namespace kernel {
 
-#include "kernel/kernel_calls.inl"
+#include "kernel/cpp_kernel_calls.inl"
 
 }  // namespace kernel
 

@@ -10,7 +10,7 @@ namespace brume {
 // A brick grid's words, as every build's BrickGrid takes them, and a table of black bodies' colours.
 struct TestGrid {
   const std::uint32_t* table = nullptr;
-  const std::uint32_t* words = nullptr;
+  const std::uint32_t* bricks = nullptr;
   std::uint32_t table_x = 0, table_xy = 0, bits = 0;
   const std::uint32_t* blackbody = nullptr;
 };
