@@ -12,6 +12,7 @@
 #include "render/estimates.h"
 #include "render/lights.h"
 #include "render/path_tracers.h"
+#include "sanitized.h"
 
 namespace brume {
 namespace {
@@ -159,6 +160,7 @@ TEST_P(Lights, EmittersAsBrightAsTheSkyCannotBeSeen) {
     SceneDescription s = lit_square(GetParam(), emitters.shapes);
     s.lights = {sky(1)};
     expect_estimate(s, 0.5, 0, 2e-3);
+    if (sanitized) continue;
     CompiledScene faulty = compiled(s);
     if (faulty.quadrics.empty()) faulty.lights.back().area *= 1.5f;
     for (CompiledQuadric& q : faulty.quadrics) q.world_from_object = q.world_from_object * scale({1.4, 1.4, 1.4});
