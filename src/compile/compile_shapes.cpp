@@ -256,6 +256,11 @@ CompiledMaterial Compiler::compile_material(const MaterialDescription& material)
   } else if (const auto* dielectric = std::get_if<DielectricMaterial>(&material)) {
     c.refraction = constant_spectrum(1);
     c.refractive_index = dielectric->eta;
+    // With nothing to refract, facets do not show.
+    if (dielectric->alpha > 0 && std::abs(dielectric->eta - 1) > 1e-3f) {
+      c.kind = CompiledMaterial::Kind::rough_dielectric;
+      c.alpha = dielectric->alpha;
+    }
   } else if (const auto* coated = std::get_if<CoatedDiffuseMaterial>(&material)) {
     c.kind = CompiledMaterial::Kind::coated_diffuse;
     set_diffuse(coated->reflectance);

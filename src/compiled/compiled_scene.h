@@ -110,10 +110,10 @@ struct CompiledImage {
 
 // A surface. blinn_phong: the sum of f = diffuse / pi + highlight c (n.h)^shininess, of a mirror, and of glass that the
 // share `refraction` of the light meets (1 for a dielectric), which it reflects and refracts by Fresnel's equations;
-// highlight = specular lerp(1, diffuse, metallic). conductor: a metal. coated_diffuse: glass above a diffuse
-// base.
+// highlight = specular lerp(1, diffuse, metallic). conductor: a metal. coated_diffuse: glass above a diffuse base.
+// rough_dielectric: glass whose facets reflect and refract; all of the light meets it, and so `refraction` is 1.
 struct CompiledMaterial {
-  enum class Kind { blinn_phong, conductor, coated_diffuse } kind = Kind::blinn_phong;
+  enum class Kind { blinn_phong, conductor, coated_diffuse, rough_dielectric } kind = Kind::blinn_phong;
   Spectrum diffuse, specular, mirror, refraction;
   Spectrum ambient;                                         // colour under the scene's ambient light
   std::int32_t diffuse_texture = -1, ambient_texture = -1;  // at or above 0: in place of diffuse and ambient
@@ -121,7 +121,7 @@ struct CompiledMaterial {
   float highlight_scale = 0;       // c
   Spectrum eta, k;                 // conductor: complex index of refraction
   float refractive_index = 1;      // of glass: inside over outside
-  float alpha = 0;                 // conductor, coated_diffuse: see base/microfacet.h; 0: smooth
+  float alpha = 0;                 // not blinn_phong: see base/microfacet.h; 0: smooth
   float internal_reflectance = 0;  // coated_diffuse: of the coat, for diffuse light from its inside
   // coated_diffuse with alpha above 0: how much light the coat lets in, by its cosine: 0, 1 / 32, 2 / 32, ..., 1.
   std::array<float, 33> coat_transmittance{};

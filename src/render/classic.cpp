@@ -90,7 +90,7 @@ Spectrum ClassicIntegrator::follow(const Branch& branch, RandomStream& random, F
   return result + at_end.throughput * MaterialAt(scene_, hit)->ambient * scene_.ambient;
 }
 
-// The reflected and the refracted ray; of a rough surface one that a facet reflects. A shading normal can send them to
+// The reflected and the refracted ray; of a rough surface one that a facet sends on. A shading normal can send them to
 // the wrong side, where they are dropped.
 void ClassicIntegrator::branch_off(const Branch& branch, const SurfaceHit& hit, RandomStream& random) {
   const MaterialAt at(scene_, hit);
@@ -98,7 +98,9 @@ void ClassicIntegrator::branch_off(const Branch& branch, const SurfaceHit& hit, 
   const auto add = [&](const SurfaceSample& s) {
     const Spectrum throughput = branch.throughput * s.weight;
     if (max_value(throughput) < negligible_transmittance || (dot(s.direction, hit.normal) < 0) != s.transmitted) return;
-    pending_.push_back({continued(branch.ray, hit, s), throughput, branch.depth + 1, s.pdf, hit.shading_normal});
+    const vec3* side = lit_side(scene_, hit);
+    pending_.push_back({continued(branch.ray, hit, s), throughput, branch.depth + 1, s.pdf,
+                        side ? std::optional(*side) : std::nullopt});
   };
   if (material.alpha > 0) return add(sample_facets(material, hit, branch.ray.direction, random));
   const SmoothLobes lobes = smooth_lobes(material, hit, branch.ray.direction);
@@ -110,8 +112,8 @@ void ClassicIntegrator::branch_off(const Branch& branch, const SurfaceHit& hit, 
 // branch comes from a facet.
 float ClassicIntegrator::share(const Branch& branch, const CompiledLight& light, const SurfaceHit& hit) const {
   if (branch.pdf == 0) return 1;
-  const float by_shadow_rays =
-      static_cast<float>(scene_.integrator.shadow_samples) * light_pdf(scene_, light, branch.ray, &branch.normal, hit);
+  const float by_shadow_rays = static_cast<float>(scene_.integrator.shadow_samples) *
+                               light_pdf(scene_, light, branch.ray, branch.normal ? &*branch.normal : nullptr, hit);
   return branch.pdf / (branch.pdf + by_shadow_rays);
 }
 
@@ -310,20 +312,20 @@ Spectrum ClassicIntegrator::in_scattering(const Branch& branch, RandomStream& ra
 void ClassicIntegrator::direct_light(const Branch& branch, const SurfaceHit& hit, RandomStream& random) {
   if (!scatters_widely(*MaterialAt(scene_, hit))) return;
   const Ray& ray = branch.ray;
-  const vec3 p = ray.at(hit.t), start = leave_surface(p, hit.normal, hit.t);
+  const vec3 p = ray.at(hit.t);
   for (const CompiledLight& light : scene_.lights) {
     const bool extends = has_extent(light);
     const int count = extends ? scene_.integrator.shadow_samples : 1;
     const RandomStream::Pair numbers = extends ? random.next_pair() : RandomStream::Pair{};
     for (int i = 0; i < count; ++i) {
-      const LightSample s = sample_light(scene_, light, p, &hit.shading_normal, stratified(numbers, i, count));
+      const LightSample s = sample_light(scene_, light, p, lit_side(scene_, hit), stratified(numbers, i, count));
       const vec3 to_light = s.ray.direction;
       float facet_pdf = 0;
       const Spectrum facets = eval_facets(scene_, hit, ray.direction, to_light, facet_pdf);
       const float light_pdf = static_cast<float>(count) * s.pdf,
                   share = extends ? light_pdf / (light_pdf + facet_pdf) : 1;
       const Spectrum reflected = eval_matt(scene_, hit, ray.direction, to_light) + (facet_pdf > 0 ? share : 0) * facets;
-      send_shadow_ray(started_at(start, s.ray), random,
+      send_shadow_ray(started_at(leave_towards(p, hit, to_light), s.ray), random,
                       (1 / static_cast<float>(count)) * branch.throughput * s.value * reflected, true);
     }
   }

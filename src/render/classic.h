@@ -63,9 +63,9 @@ class ClassicIntegrator {
   struct Branch {
     Ray ray;
     Spectrum throughput;
-    int depth;                     // how many reflections and refractions lie before it
-    float pdf = 0;                 // of its direction, where it was drawn from facets
-    kernel::vec3 normal{0, 0, 0};  // where it comes from
+    int depth;                             // how many reflections and refractions lie before it
+    float pdf = 0;                         // of its direction, where it was drawn from facets
+    std::optional<kernel::vec3> normal{};  // where it comes from; see lit_side
   };
   // A medium at a sample point of a ray, and the point's share of the light that it scatters.
   struct Scattering {

@@ -56,7 +56,8 @@ Spectrum ReferenceIntegrator::radiance(Ray ray, RandomStream& random, Foreground
         result = result + throughput * direct_light(ray.at(hit.t), &hit, random, scatter);
       const SurfaceSample sample = sample_surface(scene_, hit, ray.direction, random);
       throughput = throughput * sample.weight;
-      departure = {sample.pdf, true, hit.shading_normal};
+      const vec3* side = lit_side(scene_, hit);
+      departure = {sample.pdf, side != nullptr, side ? *side : vec3(0, 0, 0)};
       ray = continued(ray, hit, sample);
     }
 
@@ -97,12 +98,12 @@ Spectrum ReferenceIntegrator::direct_light(vec3 p, const SurfaceHit* hit, Random
   const LightChoice choice = choose_light(scene_, random.next());
   if (choice.index < 0) return {};
   const CompiledLight& light = scene_.lights[static_cast<std::size_t>(choice.index)];
-  const LightSample s = sample_light(scene_, light, p, hit ? &hit->shading_normal : nullptr, random);
+  const LightSample s = sample_light(scene_, light, p, hit ? lit_side(scene_, *hit) : nullptr, random);
   float pdf = 0;
   const Spectrum scattered = s.value * scatter(s.ray.direction, pdf);
   if (is_zero(scattered)) return {};
   const float light_pdf = choice.chance * s.pdf, share = s.pdf > 0 ? light_pdf / (light_pdf + pdf) : 1;
-  const Ray shadow_ray = hit ? started_at(leave_surface(p, hit->normal, hit->t), s.ray) : s.ray;
+  const Ray shadow_ray = hit ? started_at(leave_towards(p, *hit, s.ray.direction), s.ray) : s.ray;
   return (share / choice.chance) * scattered * transmittance(shadow_ray, random);
 }
 

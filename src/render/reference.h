@@ -43,7 +43,8 @@ class ReferenceIntegrator {
     kernel::vec3 position;
     int medium;
   };
-  // How a flight began: the density of its direction, 0 at the camera and after mirrors and refraction; and from what.
+  // How a flight began: the density of its direction, 0 at the camera and after mirrors and smooth glass; and from what
+  // (see lit_side).
   struct Departure {
     float pdf = 0;
     bool from_surface = false;

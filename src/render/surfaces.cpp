@@ -5,6 +5,7 @@
 #include "base/fresnel.h"
 #include "base/microfacet.h"
 #include "compiled/coat.h"
+#include "render/rough_glass.h"
 
 namespace brume {
 
@@ -141,6 +142,8 @@ vec3 draw_direction(const CompiledMaterial& m, vec3 n, vec3 direction, bool high
 
 SurfaceSample sample_material(const CompiledMaterial& material, const SurfaceHit& hit, vec3 direction,
                               RandomStream& random) {
+  if (material.kind == CompiledMaterial::Kind::rough_dielectric)
+    return sample_rough_glass(material, hit, direction, random);
   const vec3 n = hit.shading_normal;
   const SmoothLobes lobes = smooth_lobes(material, hit, direction);
   const Chances chances = chances_of(material, lobes, n, direction);
@@ -194,6 +197,8 @@ Spectrum eval_matt(const CompiledScene& scene, const SurfaceHit& hit, vec3 direc
 Spectrum eval_facets(const CompiledScene& scene, const SurfaceHit& hit, vec3 direction, vec3 to_light, float& pdf) {
   const MaterialAt at(scene, hit);
   const CompiledMaterial& material = *at;
+  if (material.kind == CompiledMaterial::Kind::rough_dielectric)
+    return eval_rough_glass(material, hit, direction, to_light, pdf);
   const float cosine = cosine_on_outside(hit, to_light);
   pdf = 0;
   if (material.alpha == 0 || cosine == 0) return {};
@@ -203,6 +208,8 @@ Spectrum eval_facets(const CompiledScene& scene, const SurfaceHit& hit, vec3 dir
 
 SurfaceSample sample_facets(const CompiledMaterial& material, const SurfaceHit& hit, vec3 direction,
                             RandomStream& random) {
+  if (material.kind == CompiledMaterial::Kind::rough_dielectric)
+    return sample_rough_glass(material, hit, direction, random);
   const vec3 n = hit.shading_normal;
   const vec3 to_light = draw_direction(material, n, direction, true, random);
   const float cosine = dot(to_light, n), pdf = highlight_pdf(material, n, to_light, -direction);
@@ -213,6 +220,8 @@ SurfaceSample sample_facets(const CompiledMaterial& material, const SurfaceHit& 
 Spectrum eval_surface(const CompiledScene& scene, const SurfaceHit& hit, vec3 direction, vec3 to_light, float& pdf) {
   const MaterialAt at(scene, hit);
   const CompiledMaterial& material = *at;
+  if (material.kind == CompiledMaterial::Kind::rough_dielectric)
+    return eval_rough_glass(material, hit, direction, to_light, pdf);
   const vec3 n = hit.shading_normal;
   const float cosine = cosine_on_outside(hit, to_light);
   pdf = 0;

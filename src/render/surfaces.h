@@ -28,6 +28,11 @@ inline kernel::vec3 leave_surface(kernel::vec3 p, kernel::vec3 n, float t) {
   return p + (8e-6f * extent) * n;
 }
 
+// The same for a ray that goes on in this direction, from whichever side.
+inline kernel::vec3 leave_towards(kernel::vec3 p, const SurfaceHit& hit, kernel::vec3 direction) {
+  return leave_surface(p, dot(direction, hit.normal) < 0 ? -hit.normal : hit.normal, hit.t);
+}
+
 inline float clamped_cosine(kernel::vec3 a, kernel::vec3 b) { return std::max(0.0f, dot(a, b)); }
 
 // The direction of a mirror's reflection.
@@ -81,8 +86,8 @@ SmoothLobes smooth_lobes(const CompiledMaterial& material, const SurfaceHit& hit
 SurfaceSample sample_surface(const CompiledScene& scene, const SurfaceHit& hit, kernel::vec3 direction,
                              RandomStream& random);
 
-// f cos for light from the direction `to_light` on the ray's side, mirrors left out; `pdf` is the density with which
-// sample_surface takes that direction.
+// f |cos| for light from the direction `to_light`, mirrors and smooth glass left out; `pdf` is the density with which
+// sample_surface takes that direction. It is 0 for directions beyond the surface, unless that is rough glass.
 Spectrum eval_surface(const CompiledScene& scene, const SurfaceHit& hit, kernel::vec3 direction, kernel::vec3 to_light,
                       float& pdf);
 
@@ -97,14 +102,20 @@ SurfaceSample sample_facets(const CompiledMaterial& material, const SurfaceHit& 
 // True where eval_surface is not 0 throughout, that is where light can be gathered by shadow rays.
 bool scatters_widely(const CompiledMaterial& material);
 
+// The normal on the side from which light is gathered, as sample_light and light_pdf take it; null where that is both.
+inline const kernel::vec3* lit_side(const CompiledScene& scene, const SurfaceHit& hit) {
+  const auto& shape = scene.shapes[static_cast<std::size_t>(hit.shape)];
+  const CompiledMaterial& material = scene.materials[static_cast<std::size_t>(shape.material)];
+  return material.kind == CompiledMaterial::Kind::rough_dielectric ? nullptr : &hit.shading_normal;
+}
+
 // The share of light that crosses the surface straight on, as if it were not refracted. The cosine to the normal is
 // taken for that on the outer side, which before and behind a plate is the same.
 Spectrum straight_transmittance(const CompiledMaterial& material, float cosine);
 
 // The ray that goes on from `ray`'s hit, and starts on the side that it is going to.
 inline Ray continued(const Ray& ray, const SurfaceHit& hit, const SurfaceSample& sample) {
-  const kernel::vec3 away = sample.transmitted ? -hit.normal : hit.normal;
-  return {leave_surface(ray.at(hit.t), away, hit.t), sample.direction, far_away};
+  return {leave_towards(ray.at(hit.t), hit, sample.direction), sample.direction, far_away};
 }
 
 }  // namespace brume

@@ -96,13 +96,13 @@ void VolpathIntegrator::gather_at_surface(std::uint32_t path, const SurfaceHit& 
   const auto i = static_cast<std::size_t>(picked);
   const Ray ray = ray_of(path);
   const vec3 p = ray.at(hit.t);
-  const LightSample s = sample_light(scene_, scene_.lights[i], p, &hit.shading_normal, random);
+  const LightSample s = sample_light(scene_, scene_.lights[i], p, lit_side(scene_, hit), random);
   float density = 0;
   const Spectrum f = eval_surface(scene_, hit, ray.direction, s.ray.direction, density);
   density = aim_at_surface(scene_, aim_, p, hit, ray.direction).density(s.ray.direction, density);
   const float light_density = all_lights_.chance[i] * s.pdf;
   const float share = s.pdf > 0 ? light_density / (light_density + density) : 1;
-  send_shadow_ray(path, started_at(leave_surface(p, hit.normal, hit.t), s.ray),
+  send_shadow_ray(path, started_at(leave_towards(p, hit, s.ray.direction), s.ray),
                   (share / (all_lights_.chance[i] * rescale_mean(path))) * throughput * f * s.value);
 }
 

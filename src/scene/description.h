@@ -236,9 +236,10 @@ struct ConductorMaterial {
   Spectrum eta, k;
   float alpha = 0;
 };
-// Smooth glass, by the index of refraction of its inside over that of its outside.
+// Glass, by the index of refraction of its inside over that of its outside.
 struct DielectricMaterial {
   float eta = 1.5f;
+  float alpha = 0;
 };
 // A diffuse base under a clear coat, whose index of refraction over that of the outside is eta.
 struct CoatedDiffuseMaterial {

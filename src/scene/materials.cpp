@@ -77,13 +77,6 @@ float read_roughness(ParameterList& p) {
   return alpha < least_alpha ? 0 : static_cast<float>(alpha);
 }
 
-void refuse_roughness(ParameterList& p) {
-  for (const std::string_view name : {"roughness", "uroughness", "vroughness"})
-    if (p.number(name, 0) != 0)
-      p.value_error(*p.find(ParameterType::float_, name), 0, "must be 0: rough glass is not supported yet");
-  p.ignore({"bool remaproughness"});
-}
-
 // A reflectance r at normal incidence is that of the index 1 + i k with k = 2 sqrt(r / (1 - r)).
 ConductorMaterial read_conductor(ParameterList& p) {
   ConductorMaterial m{constant_spectrum(1), {}, read_roughness(p)};
@@ -130,8 +123,8 @@ float read_eta(ParameterList& p) {
 }
 
 DielectricMaterial read_dielectric(ParameterList& p) {
-  refuse_roughness(p);
-  return {read_eta(p)};
+  const float alpha = read_roughness(p);
+  return {read_eta(p), alpha};
 }
 
 CoatedDiffuseMaterial read_coated_diffuse(ParameterList& p) {

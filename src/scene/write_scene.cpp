@@ -378,8 +378,10 @@ class Writer {
     colour("k", m.k);
     roughness(m.alpha);
   }
-  void material(const DielectricMaterial& m) { line("Material \"dielectric\" \"float eta\" {}", m.eta); }
-
+  void material(const DielectricMaterial& m) {
+    line("Material \"dielectric\" \"float eta\" {}", m.eta);
+    roughness(m.alpha);
+  }
   void material(const CoatedDiffuseMaterial& m) {
     line("Material \"coateddiffuse\" \"float eta\" {}", m.eta);
     textured("reflectance", m.reflectance);

@@ -274,6 +274,10 @@ void add_surfaces(std::vector<AgreementScene>& all) {
               {with_material(sphere_shape({0, 0, 0}, 1, "ball"), DielectricMaterial{1.4f}), ground()});
   s.lights = {sky(1)};
   all.push_back({"medium_in_glass", s});
+  s.shapes[0].material = DielectricMaterial{1.4f, 0.3f};
+  s.shapes.push_back(emitter(sphere_shape({0.3, 0.4, 2}, 0.4, ""), 4));
+  s.lights.push_back(distant_light({-1, 1, -1}, 1));
+  all.push_back({"medium_in_rough_glass", s});
   s = view_of({fog, grid}, {free_volume("a"), room, emitter(sphere_shape({1.2, 1, -0.5}, 0.3, ""), 10),
                             emitter(square_facing_z({-2, 0, 3}, 0.5, 0), 5), ground()});
   s.shapes[3].reverse_orientation = true;

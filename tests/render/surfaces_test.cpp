@@ -228,6 +228,69 @@ TEST_P(Furnace, ARoughMetalSendsBackItsAlbedo) {
   expect_estimate(s, rough_metal_albedo(0.5, 0.5, 4), 1e-5, 1e-3);
 }
 
+// What a boundary of rough glass sends to a viewer at a cosine mu of a white sky on both of its sides, by quadrature
+// over the facets, in coordinates about the viewer's direction v, so that it has nothing in common with a sum over
+// lights: the integral of D v.h / mu times the share of facets that light reaches too, (1 + ...) being Smith's, and
+// Fresnel's.
+double rough_glass_albedo(double mu, double alpha, double eta) {
+  constexpr int rings = 1000, sectors = 1000;
+  const auto hidden = [&](double c) { return (std::sqrt(1 + alpha * alpha * (1 / (c * c) - 1)) - 1) / 2; };
+  const double nx = std::sqrt(1 - mu * mu);  // the surface's normal, where v is the z axis
+  double sum = 0;
+  for (int i = 0; i < rings; ++i)
+    for (int j = 0; j < sectors; ++j) {
+      const double hz = (i + 0.5) / rings, r = std::sqrt(1 - hz * hz), phi = 2 * std::numbers::pi * (j + 0.5) / sectors;
+      const double cosine = r * std::cos(phi) * nx + hz * mu;  // n.h
+      if (cosine <= 0) continue;
+      const double t = cosine * cosine * (alpha * alpha - 1) + 1;
+      const double facets = alpha * alpha / (std::numbers::pi * t * t) * hz / mu;
+      float refracted = 0;
+      const double reflectance =
+          static_cast<double>(fresnel_dielectric(static_cast<float>(hz), static_cast<float>(eta), refracted));
+      const double mirrored = 2 * hz * cosine - mu;  // n.l, l = 2 (v.h) h - v
+      if (mirrored > 0) sum += facets * reflectance / (1 + hidden(mu) + hidden(mirrored));
+      // l = -v / eta + (v.h / eta - cos) h
+      const double bent = -mu / eta + (hz / eta - static_cast<double>(refracted)) * cosine;
+      if (bent < 0 && reflectance < 1)
+        sum += facets * (1 - reflectance) / (eta * eta) / (1 + hidden(mu) + hidden(-bent));
+    }
+  return sum * 2 * std::numbers::pi / (rings * sectors);
+}
+
+// Seen from outside and from within, where facets reflect totally. Lamps as bright as the sky stand before it and
+// behind. Catches facets that refract into other directions than they are said to, a density that is not the sampler's,
+// and shadow rays that do not find what lies behind.
+TEST_P(Furnace, RoughGlassSendsBackAndLetsThroughItsShare) {
+  for (const std::string integrator : {GetParam(), "classic"})
+    for (const bool from_within : {false, true}) {
+      SceneDescription s = needle_scene();
+      s.integrator.name = integrator;
+      s.camera.world_from_camera = rotate(from_within ? 30 : -120, {0, 1, 0}) * translate({0, 0, -1});
+      s.shapes = {square_facing_z({0, 0, 0}, 3, 0)};
+      s.shapes[0].material = DielectricMaterial{1.5f, 0.4f};
+      s.lights = {sky(1)};
+      const double mu = from_within ? std::sqrt(0.75) : 0.5, eta = from_within ? 1 / 1.5 : 1.5;
+      const double expected = rough_glass_albedo(mu, 0.4, eta);
+      SCOPED_TRACE(integrator + (from_within ? " from within" : ""));
+      expect_estimate(s, expected, 1e-5, 1e-3);
+      expect_rejected(s, rough_glass_albedo(mu, 0.45, eta));
+      for (const double z : {-1.8, 1.8}) {
+        s.shapes.push_back(sphere_shape({z < 0 ? -0.6 : 0.4, 0.2, z}, 0.7, ""));
+        s.shapes.back().material = DiffuseMaterial{{}};
+        s.shapes.back().light = AreaLight{constant_spectrum(1), false, 0};
+      }
+      expect_estimate(s, expected, 1e-5, 1e-3);
+    }
+}
+
+// Facets with next to no spread are smooth glass, and none at all where there is nothing to refract.
+TEST_P(Furnace, HardlyRoughGlassIsTheSmoothOne) {
+  SceneDescription s = furnace(GetParam(), DielectricMaterial{1.5f, 0.02f});
+  expect_estimate(s, 1, 2e-3, 1e-3);
+  s.shapes[0].material = DielectricMaterial{1, 0.3f};
+  expect_estimate(s, 1, 1e-6, 1e-3);
+}
+
 // The base gets what the facets of the coat do not reflect. The table of that is exact to 2e-4.
 TEST_P(Furnace, ARoughCoatOverWhiteMakesAndLosesNoLight) {
   for (const float alpha : {0.1f, 0.6f})

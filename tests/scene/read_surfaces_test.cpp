@@ -47,6 +47,7 @@ TEST(ReadMaterials, RoughnessIsPbrts) {
 TEST(ReadMaterials, DielectricsByNumberAndByName) {
   EXPECT_EQ(std::get<DielectricMaterial>(material_of("\"dielectric\"")).eta, 1.5f);
   EXPECT_EQ(std::get<DielectricMaterial>(material_of("\"dielectric\" \"float eta\" 1.33")).eta, 1.33f);
+  EXPECT_EQ(std::get<DielectricMaterial>(material_of("\"dielectric\" \"float roughness\" 0.25")).alpha, 0.5f);
   EXPECT_EQ(std::get<DielectricMaterial>(material_of("\"dielectric\" \"spectrum eta\" [200 1.4 900 1.4]")).eta, 1.4f);
   EXPECT_EQ(std::get<DielectricMaterial>(material_of("\"dielectric\" \"spectrum eta\" \"glass-BK7\"")).eta, 1.5168f);
 }

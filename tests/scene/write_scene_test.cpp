@@ -92,6 +92,7 @@ void expect_equal(const ShapeDescription& a, const ShapeDescription& b) {
   }
   if (const auto* dielectric = std::get_if<DielectricMaterial>(&a.material)) {
     EXPECT_EQ(dielectric->eta, std::get<DielectricMaterial>(b.material).eta);
+    EXPECT_EQ(dielectric->alpha, std::get<DielectricMaterial>(b.material).alpha);
   }
   ASSERT_EQ(a.light.has_value(), b.light.has_value());
   if (a.light) {
