@@ -119,7 +119,7 @@ TEST_P(DamagedFiles, Nvdb) {
     const std::string good = read_bytes(path);
     expect_truncations_refused(nvdb, good);
     expect_flips_survived(nvdb, good, 200);
-    expect_odd_sizes_survived(nvdb, good, 200);
+    expect_odd_sizes_survived(nvdb, good, 100);
   }
 }
 
