@@ -348,6 +348,9 @@ struct InfiniteLight {
   std::string filename{};  // of the image, resolved; "" for none
   Transform world_from_light{};
   double illuminance = 0;  // above 0: an image is scaled to this illuminance of a surface that faces the light's +z
+  // The corners p0 to p3 of a rectangle in the world: the light is seen only through it, and only along directions on
+  // the side of (p3 - p0) x (p1 - p0).
+  std::optional<std::array<Vector3, 4>> portal{};
 };
 // A black ball that shines alike in all directions.
 struct SphereLight {

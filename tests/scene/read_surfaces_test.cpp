@@ -143,6 +143,19 @@ TEST(ReadLights, ImagesAreTurnedAndScaled) {
   EXPECT_EQ(light.radiance, constant_spectrum(3));
   EXPECT_EQ(light.illuminance, 5);
   EXPECT_NEAR(light.world_from_light.vector({0, 0, 1}).y, 2, 1e-12);
+  EXPECT_FALSE(light.portal);
+}
+
+TEST(ReadLights, PortalsStandInTheWorld) {
+  const SceneDescription s = world_of(
+      "Rotate 90 1 0 0\nTranslate 1 2 3\nLightSource \"infinite\" \"string filename\" \"sky.exr\" "
+      "\"point3 portal\" [0 0 5  2 0 5  2 3 5  0 3 5]\nLightSource \"infinite\" \"rgb L\" [1 2 3] "
+      "\"point3 portal\" [0 0 5  0 3 5  2 3 5  2 0 5]");
+  ASSERT_EQ(s.lights.size(), 2u);
+  const auto &image = std::get<InfiniteLight>(s.lights[0].kind), &constant = std::get<InfiniteLight>(s.lights[1].kind);
+  EXPECT_EQ(image.portal, (std::array<Vector3, 4>{{{0, 0, 5}, {2, 0, 5}, {2, 3, 5}, {0, 3, 5}}}));
+  EXPECT_EQ(constant.portal, (std::array<Vector3, 4>{{{0, 0, 5}, {0, 3, 5}, {2, 3, 5}, {2, 0, 5}}}));
+  EXPECT_EQ(constant.radiance, (Spectrum{{1, 2, 3}}));
 }
 
 }  // namespace
