@@ -422,6 +422,10 @@ class Writer {
     line("Shape \"trianglemesh\"");
     list("\"integer indices\"", flat(s.triangles));
     vertices(s);
+    if (!s.displacement) return;
+    const auto& [texture, edge_length] = *s.displacement;
+    line("  \"texture displacement\" {} \"float edgelength\" {}",
+         quoted(scene_.textures[static_cast<std::size_t>(texture)].name), edge_length);
   }
   void shape_kind(const BilinearMeshShape& s) {
     line("Shape \"bilinearmesh\"");

@@ -119,6 +119,18 @@ TEST(ReadShapes, MeshesOfPlyFiles) {
   EXPECT_TRUE(warnings.empty());
 }
 
+TEST(ReadShapes, MeshesAreDisplacedByTexturesOfNumbers) {
+  const std::string mesh = "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] ";
+  const SceneDescription s =
+      world_of("Texture \"a\" \"float\" \"constant\"\nTexture \"b\" \"float\" \"constant\"\n" + mesh + "\n" + mesh +
+               "\"texture displacement\" \"b\"\n" + mesh + "\"texture displacement\" \"a\" \"float edgelength\" 0.5");
+  ASSERT_EQ(s.shapes.size(), 3u);
+  const auto displacement = [&](std::size_t i) { return std::get<TriangleMeshShape>(s.shapes[i].kind).displacement; };
+  EXPECT_FALSE(displacement(0));
+  EXPECT_EQ(displacement(1), (Displacement{1, 1}));
+  EXPECT_EQ(displacement(2), (Displacement{0, 0.5}));
+}
+
 // Catches a light that outlasts its block, or is not there for later shapes, or for shapes without a surface.
 TEST(ReadLights, AreaLightsHoldForTheShapesOfTheirBlock) {
   const SceneDescription s = world_of(

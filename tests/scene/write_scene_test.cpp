@@ -128,6 +128,7 @@ void expect_equal(const ShapeDescription& a, const ShapeDescription& b) {
     EXPECT_EQ(mesh->triangles, other.triangles);
     EXPECT_EQ(mesh->normals, other.normals);
     EXPECT_EQ(mesh->uv, other.uv);
+    EXPECT_EQ(mesh->displacement, other.displacement);
   }
   if (const auto* patches = std::get_if<BilinearMeshShape>(&a.kind)) {
     const auto& other = std::get<BilinearMeshShape>(b.kind);
