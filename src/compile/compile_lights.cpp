@@ -77,6 +77,31 @@ Transform rotation(const Transform& t) {
   return r;
 }
 
+// Which share of the directions through a portal the image's table is to draw: none where all pixels are as bright as
+// each other, up to half of them the fewer pixels all light comes from.
+float image_share(const CompiledEnvironment& e) {
+  double sum = 0, squares = 0;
+  for (std::uint32_t y = 0; y < e.height; ++y)
+    for (std::uint32_t x = 0; x < e.width; ++x) {
+      const double v = brightness(e, x, y), weight = static_cast<double>(e.pixel_solid_angle[y]) / (4 * pi);
+      sum += weight * v;
+      squares += weight * v * v;
+    }
+  return squares > 0 ? static_cast<float>(std::max(0.0, 0.5 * (1 - sum * sum / squares))) : 0;
+}
+
+CompiledPortal compile_portal(const std::array<Vector3, 4>& corners) {
+  const Vector3 u = corners[1] - corners[0], v = corners[3] - corners[0];
+  CompiledPortal portal;
+  portal.corner = corners[0];
+  portal.x = normalize(u);
+  portal.outwards = normalize(cross(v, u));
+  portal.y = cross(portal.x, portal.outwards);
+  portal.width = length(u);
+  portal.height = dot(v, portal.y);
+  return portal;
+}
+
 // The area of a quadric in the world. The affine map enlarges a piece with the unit normal n by |det M| |M^-T n|; the
 // midpoint rule over a turn is good for a smooth periodic function.
 double world_area(const CompiledQuadric& q) {
@@ -173,21 +198,32 @@ void Compiler::add_ambient_light(const AmbientLight& light, const Location& loca
 void Compiler::add_infinite_light(const LightDescription& description) {
   const auto& light = std::get<InfiniteLight>(description.kind);
   CompiledLight c;
-  c.kind = CompiledLight::Kind::infinite;
   c.value = light.radiance;
-  if (!light.filename.empty()) {
-    CompiledEnvironment e;
-    if (!read_environment(light.filename, description.location, e)) return;
-    e.world_from_light = rotation(light.world_from_light);
-    e.light_from_world = inverse(e.world_from_light);
-    mean_brightness_.push_back(add_table(e));
-    if (light.illuminance > 0)
-      if (const double unit = illuminance(e); unit > 0)
-        c.value = static_cast<float>(light.illuminance / unit) * c.value;
-    c.kind = CompiledLight::Kind::image;
-    c.environment = static_cast<std::int32_t>(compiled_.environments.size());
-    compiled_.environments.push_back(std::move(e));
+  if (light.filename.empty() && !light.portal) {
+    c.kind = CompiledLight::Kind::infinite;
+    compiled_.lights.push_back(c);
+    return;
   }
+  CompiledEnvironment e;
+  if (light.filename.empty()) {
+    e.width = e.height = 1;
+    e.pixels = {1, 1, 1};
+  } else if (!read_environment(light.filename, description.location, e)) {
+    return;
+  }
+  e.world_from_light = rotation(light.world_from_light);
+  e.light_from_world = inverse(e.world_from_light);
+  mean_brightness_.push_back(add_table(e));
+  if (light.illuminance > 0)
+    if (const double unit = illuminance(e); unit > 0) c.value = static_cast<float>(light.illuminance / unit) * c.value;
+  if (light.portal) {
+    c.portal = static_cast<std::int32_t>(compiled_.portals.size());
+    compiled_.portals.push_back(compile_portal(*light.portal));
+    compiled_.portals.back().image_share = image_share(e);
+  }
+  c.kind = CompiledLight::Kind::image;
+  c.environment = static_cast<std::int32_t>(compiled_.environments.size());
+  compiled_.environments.push_back(std::move(e));
   compiled_.lights.push_back(c);
 }
 
@@ -278,6 +314,12 @@ void Compiler::add_light_choice() {
   const std::size_t n = compiled_.lights.size();
   if (n == 0) return;
   const double radius = scene_radius(), disk = pi * radius * radius;
+  // Of a surface that would send out on one side what an image brings into the scene.
+  const auto lit_area = [&](const CompiledLight& image) {
+    if (image.portal < 0) return 4 * disk;
+    const CompiledPortal& portal = compiled_.portals[static_cast<std::size_t>(image.portal)];
+    return std::min(4 * disk, portal.width * portal.height);
+  };
   std::vector<double> powers(n);
   for (std::size_t i = 0; i < n; ++i) {
     const CompiledLight& light = compiled_.lights[i];
@@ -286,7 +328,7 @@ void Compiler::add_light_choice() {
     if (light.kind == CompiledLight::Kind::distant) powers[i] *= disk;
     if (light.kind == CompiledLight::Kind::infinite) powers[i] *= 4 * pi * disk;
     if (light.kind == CompiledLight::Kind::image)
-      powers[i] *= 4 * pi * disk * mean_brightness_[static_cast<std::size_t>(light.environment)];
+      powers[i] *= pi * mean_brightness_[static_cast<std::size_t>(light.environment)] * lit_area(light);
   }
   for (const auto& [light, area] : light_areas_)
     powers[light] *= pi * area * (compiled_.lights[light].two_sided ? 2 : 1);

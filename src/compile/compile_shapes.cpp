@@ -1,11 +1,17 @@
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numbers>
 #include <tuple>
 
 #include "base/fresnel.h"
 #include "base/microfacet.h"
 #include "compile/compiler.h"
+#include "compile/displace.h"
 #include "compiled/coat.h"
+#include "intersect/textures.h"
 
 namespace brume {
 
@@ -190,7 +196,10 @@ std::vector<CompiledShape> Compiler::add_geometry(const ShapeDescription& shape)
     return parts;
   }
   if (const auto* patches = std::get_if<BilinearMeshShape>(&shape.kind)) return add_patches(shape, *patches);
-  if (const auto* mesh = std::get_if<TriangleMeshShape>(&shape.kind)) return {add_mesh(shape, *mesh)};
+  if (const auto* mesh = std::get_if<TriangleMeshShape>(&shape.kind)) {
+    if (mesh->displacement) return {add_mesh(shape, displaced_mesh(shape, *mesh))};
+    return {add_mesh(shape, *mesh)};
+  }
   const auto& [origin, u, v] = std::get<QuadShape>(shape.kind);
   return {add_mesh(shape, {{origin, origin + u, origin + u + v, origin + v},
                            {{0, 1, 2}, {0, 2, 3}},
@@ -201,6 +210,32 @@ std::vector<CompiledShape> Compiler::add_geometry(const ShapeDescription& shape)
 CompiledShape Compiler::add_quadric(const CompiledQuadric& quadric) {
   compiled_.quadrics.push_back(quadric);
   return {CompiledShape::Kind::quadric, static_cast<std::uint32_t>(compiled_.quadrics.size() - 1)};
+}
+
+TriangleMeshShape Compiler::displaced_mesh(const ShapeDescription& shape, const TriangleMeshShape& mesh) {
+  constexpr std::size_t max_triangles = std::size_t{1} << 24;
+  constexpr double max_float = std::numeric_limits<float>::max();
+  if (mesh.uv.empty()) error(shape.location, "\"texture displacement\" needs a mesh whose vertices have u and v");
+  if (!errors_.empty()) return mesh;  // the texture may lack its picture
+  const Displacement& displacement = *mesh.displacement;
+  const std::int32_t texture = textures_.at(static_cast<std::size_t>(displacement.texture));
+  bool in_range = true;
+  const auto displace = [&](Vector3 p, const std::array<double, 2>& uv) {
+    const std::array<float, 3> place = to_float(shape.world_from_object.point(p));
+    SurfaceHit vertex;
+    vertex.position = {place[0], place[1], place[2]};
+    vertex.uv = {static_cast<float>(uv[0]), static_cast<float>(uv[1])};
+    const auto distance = static_cast<double>(texture_value(compiled_, texture, vertex)[0]);
+    in_range = in_range && std::abs(distance) <= max_float;
+    return distance;
+  };
+  auto result = displaced(mesh, shape.world_from_object, displacement.edge_length, displace, max_triangles);
+  if (!result)
+    error(shape.location, fmt::format("with edges of at most {} (\"float edgelength\") the mesh would have more than "
+                                      "{} triangles",
+                                      displacement.edge_length, max_triangles));
+  if (!in_range) error(shape.location, "\"texture displacement\" is infinite or not a number on the mesh");
+  return result && in_range ? std::move(*result) : mesh;
 }
 
 CompiledShape Compiler::add_mesh(const ShapeDescription& shape, const TriangleMeshShape& from) {

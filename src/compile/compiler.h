@@ -75,6 +75,8 @@ class Compiler {
   std::vector<CompiledShape> add_geometry(const ShapeDescription& shape);
   CompiledShape add_quadric(const CompiledQuadric& quadric);
   CompiledShape add_mesh(const ShapeDescription& shape, const TriangleMeshShape& mesh);
+  // After an error, the mesh as it is.
+  TriangleMeshShape displaced_mesh(const ShapeDescription& shape, const TriangleMeshShape& mesh);
   std::vector<CompiledShape> add_patches(const ShapeDescription& shape, const BilinearMeshShape& patches);
   CompiledShape add_saddle(const ShapeDescription& shape, const Transform& object_from_saddle,
                            const std::array<Vector3, 4>& normals, const std::array<std::array<double, 2>, 4>& uv);

@@ -208,6 +208,7 @@ struct CompiledLight {
                          // radiance; image: a factor
   float chance = 0;      // with which it is chosen among all lights (see light_cdf)
   std::int32_t environment = -1;  // image: in environments
+  std::int32_t portal = -1;       // image: in portals; below 0: it shines from everywhere
 
   // Area: its shape, as CompiledShape has it, and its area, which for a quadric is that before the affine map.
   CompiledShape::Kind shape_kind = CompiledShape::Kind::mesh;
@@ -228,6 +229,15 @@ struct CompiledEnvironment {
   std::vector<float> pixel_solid_angle;          // by row
   std::vector<float> row_cdf;                    // height + 1
   std::vector<float> pixel_cdf;                  // width + 1 a row
+};
+
+// A rectangle through which alone an image shines, and only for who looks out: along directions on the side of
+// `outwards`. Its points are corner + s x + t y, for s from 0 to width and t from 0 to height.
+struct CompiledPortal {
+  Vector3 corner;
+  Vector3 x, y, outwards;  // unit, and at right angles to each other
+  double width = 0, height = 0;
+  float image_share = 0;  // of the directions towards the light: these are drawn from the image's table
 };
 
 struct CompiledCamera {
@@ -291,6 +301,7 @@ struct CompiledScene {
   std::vector<float> light_cdf;      // cumulative chances of lights, without the leading 0
   std::vector<float> triangle_cdfs;  // cumulative shares of area of the triangles of mesh lights, likewise
   std::vector<CompiledEnvironment> environments;
+  std::vector<CompiledPortal> portals;
 };
 
 // As kernels take it.

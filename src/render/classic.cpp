@@ -355,7 +355,7 @@ void ClassicIntegrator::follow_shadow_rays() {
 Spectrum ClassicIntegrator::background(const Branch& branch) const {
   Spectrum result;
   for (const CompiledLight& light : scene_.lights)
-    if (const Spectrum radiance = environment_radiance(scene_, light, branch.ray.direction); !is_zero(radiance))
+    if (const Spectrum radiance = environment_radiance(scene_, light, branch.ray); !is_zero(radiance))
       result = result + share(branch, light, {}) * radiance;
   return result;
 }

@@ -6,6 +6,7 @@
 
 #include "base/sphere_map.h"
 #include "render/area_lights.h"
+#include "render/portal.h"
 #include "render/surfaces.h"
 
 namespace brume {
@@ -78,8 +79,16 @@ void find_pixel(const CompiledEnvironment& e, vec3 direction, std::uint32_t& col
   row = std::min(static_cast<std::uint32_t>(p.v * e.height), e.height - 1);
 }
 
+const CompiledEnvironment& environment_of(const CompiledScene& scene, const CompiledLight& light) {
+  return scene.environments[static_cast<std::size_t>(light.environment)];
+}
+
+const CompiledPortal* portal_of(const CompiledScene& scene, const CompiledLight& light) {
+  return light.portal < 0 ? nullptr : &scene.portals[static_cast<std::size_t>(light.portal)];
+}
+
 LightSample sample_image(const CompiledScene& scene, const CompiledLight& light, vec3 p, RandomStream::Pair numbers) {
-  const CompiledEnvironment& e = scene.environments[static_cast<std::size_t>(light.environment)];
+  const CompiledEnvironment& e = environment_of(scene, light);
   auto [right, down] = numbers;
   const std::uint32_t row = draw(e.row_cdf.data(), e.height, down);
   const std::uint32_t column = draw(e.pixel_cdf.data() + static_cast<std::size_t>(row) * (e.width + 1), e.width, right);
@@ -89,6 +98,41 @@ LightSample sample_image(const CompiledScene& scene, const CompiledLight& light,
   return {{p, to_float(normalize(e.world_from_light.vector(d))), far_away},
           (1 / pdf) * light.value * pixel(e, column, row),
           pdf};
+}
+
+float image_pdf(const CompiledScene& scene, const CompiledLight& light, vec3 direction) {
+  std::uint32_t column = 0, row = 0;
+  const CompiledEnvironment& e = environment_of(scene, light);
+  find_pixel(e, direction, column, row);
+  return pixel_density(e, column, row);
+}
+
+float portal_pdf(const CompiledScene& scene, const CompiledLight& light, const Ray& ray) {
+  const CompiledPortal& portal = *portal_of(scene, light);
+  const double solid_angle = PortalView(portal, ray.origin).solid_angle();
+  if (!(solid_angle > 0 && passes(portal, ray))) return 0;
+  return portal.image_share * image_pdf(scene, light, ray.direction) +
+         (1 - portal.image_share) * static_cast<float>(1 / solid_angle);
+}
+
+// A share of the directions is drawn from the image's table, which knows where the image is bright, and lost where it
+// misses the portal; the others are uniform in the portal's solid angle.
+LightSample sample_through_portal(const CompiledScene& scene, const CompiledLight& light, vec3 p,
+                                  RandomStream::Pair numbers) {
+  const CompiledPortal& portal = *portal_of(scene, light);
+  const PortalView view(portal, p);
+  const LightSample nothing{{p, {0, 0, 1}, far_away}, {}, 0};
+  if (!(view.solid_angle() > 0)) return nothing;
+  const auto [u, v] = numbers;
+  const float share = portal.image_share;
+  const vec3 direction = u < share
+                             ? sample_image(scene, light, p, {u / share, v}).ray.direction
+                             : view.direction(static_cast<double>((u - share) / (1 - share)), static_cast<double>(v));
+  const Ray ray{p, direction, far_away};
+  const Spectrum radiance = environment_radiance(scene, light, ray);
+  if (is_zero(radiance)) return nothing;
+  const float pdf = portal_pdf(scene, light, ray);
+  return {ray, (1 / pdf) * radiance, pdf};
 }
 
 LightSample sample_area(const CompiledScene& scene, const CompiledLight& light, vec3 p, RandomStream::Pair numbers) {
@@ -133,7 +177,8 @@ LightSample sample_light(const CompiledScene& scene, const CompiledLight& light,
     case CompiledLight::Kind::infinite:
       break;
     case CompiledLight::Kind::image:
-      return sample_image(scene, light, p, numbers);
+      return light.portal < 0 ? sample_image(scene, light, p, numbers)
+                              : sample_through_portal(scene, light, p, numbers);
     case CompiledLight::Kind::area:
       return sample_area(scene, light, p, numbers);
   }
@@ -160,18 +205,16 @@ float light_pdf(const CompiledScene& scene, const CompiledLight& light, const Ra
     case CompiledLight::Kind::area:
       return area_light_pdf(scene, light, ray, hit);
   }
-  std::uint32_t column = 0, row = 0;
-  const CompiledEnvironment& e = scene.environments[static_cast<std::size_t>(light.environment)];
-  find_pixel(e, ray.direction, column, row);
-  return pixel_density(e, column, row);
+  return light.portal < 0 ? image_pdf(scene, light, ray.direction) : portal_pdf(scene, light, ray);
 }
 
-Spectrum environment_radiance(const CompiledScene& scene, const CompiledLight& light, vec3 direction) {
+Spectrum environment_radiance(const CompiledScene& scene, const CompiledLight& light, const Ray& ray) {
   if (light.kind == CompiledLight::Kind::infinite) return light.value;
   if (light.kind != CompiledLight::Kind::image) return {};
-  const CompiledEnvironment& e = scene.environments[static_cast<std::size_t>(light.environment)];
+  if (const CompiledPortal* portal = portal_of(scene, light); portal && !passes(*portal, ray)) return {};
+  const CompiledEnvironment& e = environment_of(scene, light);
   std::uint32_t column = 0, row = 0;
-  find_pixel(e, direction, column, row);
+  find_pixel(e, ray.direction, column, row);
   return light.value * pixel(e, column, row);
 }
 

@@ -43,8 +43,9 @@ Ray started_at(kernel::vec3 start, const Ray& ray);
 float light_pdf(const CompiledScene& scene, const CompiledLight& light, const Ray& ray, const kernel::vec3* normal,
                 const SurfaceHit& hit);
 
-// The radiance that an infinite light, constant or image, sends against `direction`; 0 for the others.
-Spectrum environment_radiance(const CompiledScene& scene, const CompiledLight& light, kernel::vec3 direction);
+// The radiance that an infinite light, constant or image, sends against the ray; 0 for the others, and where the ray
+// misses the light's portal.
+Spectrum environment_radiance(const CompiledScene& scene, const CompiledLight& light, const Ray& ray);
 
 // The radiance that the surface at `hit`, as the intersector gives it, sends against `direction`.
 Spectrum emitted_radiance(const CompiledScene& scene, const SurfaceHit& hit, kernel::vec3 direction);

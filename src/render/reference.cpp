@@ -85,7 +85,7 @@ Spectrum ReferenceIntegrator::light_met(const Ray& ray, const SurfaceHit* hit, c
     return share(scene_.lights[static_cast<std::size_t>(index)]) * emitted_radiance(scene_, *hit, ray.direction);
   }
   for (const CompiledLight& light : scene_.lights)
-    if (const Spectrum radiance = environment_radiance(scene_, light, ray.direction); !is_zero(radiance))
+    if (const Spectrum radiance = environment_radiance(scene_, light, ray); !is_zero(radiance))
       result = result + share(light) * radiance;
   return result;
 }

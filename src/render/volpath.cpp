@@ -348,7 +348,7 @@ void VolpathIntegrator::see_environment(std::uint32_t path, float share) {
   const Ray ray = ray_of(path);
   for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
     const CompiledLight& light = scene_.lights[i];
-    const Spectrum radiance = environment_radiance(scene_, light, ray.direction);
+    const Spectrum radiance = environment_radiance(scene_, light, ray);
     if (is_zero(radiance)) continue;
     const float density =
         all_lights_.chance[i] > 0 ? all_lights_.chance[i] * light_pdf(scene_, light, ray, nullptr, {}) : 0;

@@ -256,11 +256,20 @@ struct SphereShape {
   double z_min = -std::numeric_limits<double>::infinity(), z_max = std::numeric_limits<double>::infinity();
   double phi_max = 360;  // degrees from the x axis
 };
+// Vertices move along their normals, in the space of the mesh, by what a texture of numbers is at their uv, after
+// triangles were split until no edge is longer than edge_length in the world (in an object, in the space of the
+// object).
+struct Displacement {
+  int texture = 0;  // in SceneDescription::textures
+  double edge_length = 1;
+  bool operator==(const Displacement&) const = default;
+};
 struct TriangleMeshShape {
   std::vector<Vector3> positions;
   std::vector<std::array<std::uint32_t, 3>> triangles;  // indices checked
   std::vector<Vector3> normals;                         // empty or one per position
   std::vector<std::array<double, 2>> uv{};              // likewise
+  std::optional<Displacement> displacement{};
 };
 // Surfaces p(u, v) between four points each, at the corners (0, 0), (1, 0), (0, 1), (1, 1), linear in u and in v.
 struct BilinearMeshShape {
@@ -349,6 +358,9 @@ struct InfiniteLight {
   std::string filename{};  // of the image, resolved; "" for none
   Transform world_from_light{};
   double illuminance = 0;  // above 0: an image is scaled to this illuminance of a surface that faces the light's +z
+  // The corners p0 to p3 of a rectangle in the world: the light is seen only through it, and only along directions on
+  // the side of (p3 - p0) x (p1 - p0).
+  std::optional<std::array<Vector3, 4>> portal{};
 };
 // A black ball that shines alike in all directions.
 struct SphereLight {

@@ -95,13 +95,38 @@ SphereLight read_sphere(ParameterList& p, const Transform& ctm) {
   return light;
 }
 
+// To a thousandth of the edges.
+bool is_rectangle(const std::vector<Vector3>& p) {
+  if (p.size() != 4) return false;
+  const Vector3 x = p[1] - p[0], y = p[3] - p[0];
+  const double shorter = std::min(length(x), length(y));
+  return shorter > 0 && length(p[2] - (p[0] + x + y)) <= 1e-3 * shorter &&
+         std::abs(dot(x, y)) <= 1e-3 * length(x) * length(y);
+}
+
+// In the world, whatever the current transformation: as pbrt has it.
+std::optional<std::array<Vector3, 4>> read_portal(ParameterList& p) {
+  const Parameter* given = p.find(ParameterType::point3, "portal");
+  if (!given) return std::nullopt;
+  const std::vector<Vector3> corners = p.triples(ParameterType::point3, "portal");
+  if (!is_rectangle(corners)) {
+    p.value_error(*given, 0, "must be the four corners of a rectangle, in their order around it");
+    return std::nullopt;
+  }
+  return std::array{corners[0], corners[1], corners[2], corners[3]};
+}
+
 }  // namespace
 
 InfiniteLight Reader::infinite_light(ParameterList& p, const Transform& ctm) {
+  InfiniteLight light;
   p.rename("mapname", "filename");
-  p.refuse({"point3 portal"}, "is not supported yet");
+  light.portal = read_portal(p);
   const std::string name = p.string("filename", "");
-  if (name.empty()) return {read_colour(p, "L", "illuminance", std::numbers::pi), {}, {}, 0};
+  if (name.empty()) {
+    light.radiance = read_colour(p, "L", "illuminance", std::numbers::pi);
+    return light;
+  }
   for (const ParameterType type : {ParameterType::rgb, ParameterType::spectrum, ParameterType::blackbody})
     if (const Parameter* colour = p.find(type, "L"))
       p.value_error(*colour, 0, "has no place beside \"string filename\"; give a \"float scale\"");
@@ -109,7 +134,6 @@ InfiniteLight Reader::infinite_light(ParameterList& p, const Transform& ctm) {
     p.error(p.place(),
             "the image of LightSource \"infinite\" may be turned and mirrored, but the current "
             "transformation stretches it");
-  InfiniteLight light;
   light.radiance = constant_spectrum(static_cast<float>(p.number("scale", 1, Range::at_least(0))));
   light.filename = resolve(name);
   light.world_from_light = ctm;

@@ -119,6 +119,7 @@ class Reader {
   InfiniteLight infinite_light(ParameterList& p, const Transform& ctm);
   TriangleMeshShape ply_mesh(ParameterList& p);
   TriangleMeshShape obj_mesh(ParameterList& p);
+  std::optional<Displacement> displacement(ParameterList& p);
   TextureMapping read_mapping(ParameterList& p);
   ImageTexture read_image_texture(ParameterList& p);
   // The colour, or with is_float the number, that a parameter of a texture gives, or the texture that it names.

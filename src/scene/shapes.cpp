@@ -146,8 +146,6 @@ BilinearMeshShape read_bilinear_mesh(ParameterList& p) {
 TriangleMeshShape Reader::ply_mesh(ParameterList& p) {
   p.require(ParameterType::string, "filename");
   const std::string name = p.string("filename", "");
-  p.refuse({"texture displacement"}, "is not supported yet");
-  p.ignore({"float edgelength"});
   if (name.empty()) return {};
   const Place place = p.place_of(ParameterType::string, "filename");
   try {
@@ -180,6 +178,14 @@ TriangleMeshShape Reader::obj_mesh(ParameterList& p) {
     p.error(place, fmt::format("\"{}\" {}", printable(name), printable(e.diagnostics().front().message)));
     return {};
   }
+}
+
+std::optional<Displacement> Reader::displacement(ParameterList& p) {
+  const double edge_length = p.number("edgelength", 1, Range::above(0));
+  Textured texture;
+  use_texture(p, "displacement", true, texture);
+  if (texture.texture < 0) return std::nullopt;
+  return Displacement{texture.texture, edge_length};
 }
 
 void Reader::shape() {
@@ -223,6 +229,7 @@ void Reader::shape() {
   if (type == "bilinearmesh") shape.kind = read_bilinear_mesh(p);
   if (type == "plymesh") shape.kind = ply_mesh(p);
   if (type == "objmesh") shape.kind = obj_mesh(p);
+  if (auto* mesh = std::get_if<TriangleMeshShape>(&shape.kind)) mesh->displacement = displacement(p);
   shape.alpha = constant_spectrum(static_cast<float>(p.number("alpha", 1, Range::from_to(0, 1))));
   use_texture(p, "alpha", true, shape.alpha);
   p.finish();

@@ -264,15 +264,19 @@ class Writer {
     if (l.filename.empty()) {
       line("LightSource \"infinite\"");
       colour("L", l.radiance);
+      portal(l);
       return;
     }
     const bool moved = !is_identity(l.world_from_light);
     if (moved) begin_moved(l.world_from_light);
     line("LightSource \"infinite\" \"string filename\" {} \"float scale\" {}", quoted(l.filename), l.radiance[0]);
     if (l.illuminance > 0) line("  \"float illuminance\" {}", l.illuminance);
+    portal(l);
     if (moved) end_block();
   }
-
+  void portal(const InfiniteLight& l) {
+    if (l.portal) list("\"point3 portal\"", flat({l.portal->begin(), l.portal->end()}));
+  }
   void light_kind(const SphereLight& l) {
     line("LightSource \"sphere\" \"point3 from\" [{}] \"float radius\" {}", numbers(l.from), l.radius);
     colour("I", l.intensity);
@@ -420,6 +424,10 @@ class Writer {
     line("Shape \"trianglemesh\"");
     list("\"integer indices\"", flat(s.triangles));
     vertices(s);
+    if (!s.displacement) return;
+    const auto& [texture, edge_length] = *s.displacement;
+    line("  \"texture displacement\" {} \"float edgelength\" {}",
+         quoted(scene_.textures[static_cast<std::size_t>(texture)].name), edge_length);
   }
   void shape_kind(const BilinearMeshShape& s) {
     line("Shape \"bilinearmesh\"");

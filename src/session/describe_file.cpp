@@ -45,8 +45,9 @@ struct DescribeLight {
     return fmt::format("distant, towards {}, radiance {}", text(l.direction_to_light), text(l.radiance));
   }
   std::string operator()(const InfiniteLight& l) const {
-    if (!l.filename.empty()) return fmt::format("infinite, image {} times {}", l.filename, text(l.radiance));
-    return fmt::format("infinite, radiance {}", text(l.radiance));
+    const std::string_view where = l.portal ? ", through a portal" : "";
+    if (!l.filename.empty()) return fmt::format("infinite, image {} times {}{}", l.filename, text(l.radiance), where);
+    return fmt::format("infinite, radiance {}{}", text(l.radiance), where);
   }
   std::string operator()(const SphereLight& l) const {
     return fmt::format("sphere at {} of radius {}, intensity {}", text(l.from), l.radius, text(l.intensity));

@@ -338,6 +338,16 @@ void add_textured_instances(std::vector<AgreementScene>& all) {
   all.push_back({"textured_instances", s});
 }
 
+// A sky that shines into the fog through one window.
+void add_window(std::vector<AgreementScene>& all) {
+  SceneDescription s = view_of({smoke("a", 0.2f, 3), homogeneous_medium("fog", 0.02f, 0.2f)},
+                               {free_volume("a"), box_shape({-5, -2, -6}, {5, 4, 5}, "fog"), ground()});
+  InfiniteLight light{constant_spectrum(3), "sky.exr"};
+  light.portal = {{{-1.5, 2, -1.5}, {1, 2, -1.5}, {1, 2, 2}, {-1.5, 2, 2}}};
+  s.lights = {{light, {}}};
+  all.push_back({"window", s});
+}
+
 void add_depths(std::vector<AgreementScene>& all) {
   for (const int depth : {0, 1, 2, 5}) {
     SceneDescription s =
@@ -363,6 +373,7 @@ std::vector<AgreementScene> agreement_scenes() {
   add_rgb_grids(all);
   add_surfaces(all);
   add_textured_instances(all);
+  add_window(all);
   add_depths(all);
   return all;
 }

@@ -243,7 +243,7 @@ double reflected(const CompiledScene& scene, double turn) {
       const double phi = 2 * pi * (j + 0.5) / sectors + turn;
       const kernel::vec3 d(static_cast<float>(r * std::cos(phi)), static_cast<float>(r * std::sin(phi)),
                            static_cast<float>(z));
-      sum += static_cast<double>(environment_radiance(scene, scene.lights[0], d)[0]);
+      sum += static_cast<double>(environment_radiance(scene, scene.lights[0], {{0, 0, 0}, d})[0]);
     }
   return 0.5 * sum / (rings * sectors);
 }
@@ -288,7 +288,7 @@ TEST_F(Images, HaveTheirDirectionsWherePbrtHasThem) {
     SceneDescription s = scene("reference", path);
     std::get<InfiniteLight>(s.lights[0].kind).world_from_light = Transform();
     const CompiledScene c = compiled(s);
-    const int n = static_cast<int>(environment_radiance(c, c.lights[0], d)[0]);
+    const int n = static_cast<int>(environment_radiance(c, c.lights[0], {{0, 0, 0}, d})[0]);
     return std::pair(n % width, n / width);
   };
   EXPECT_EQ(pixel_at(5, 5, {0, 0, 1}), std::pair(2, 2));

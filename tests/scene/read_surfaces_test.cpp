@@ -120,6 +120,18 @@ TEST(ReadShapes, MeshesOfPlyFiles) {
   EXPECT_TRUE(warnings.empty());
 }
 
+TEST(ReadShapes, MeshesAreDisplacedByTexturesOfNumbers) {
+  const std::string mesh = "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] ";
+  const SceneDescription s =
+      world_of("Texture \"a\" \"float\" \"constant\"\nTexture \"b\" \"float\" \"constant\"\n" + mesh + "\n" + mesh +
+               "\"texture displacement\" \"b\"\n" + mesh + "\"texture displacement\" \"a\" \"float edgelength\" 0.5");
+  ASSERT_EQ(s.shapes.size(), 3u);
+  const auto displacement = [&](std::size_t i) { return std::get<TriangleMeshShape>(s.shapes[i].kind).displacement; };
+  EXPECT_FALSE(displacement(0));
+  EXPECT_EQ(displacement(1), (Displacement{1, 1}));
+  EXPECT_EQ(displacement(2), (Displacement{0, 0.5}));
+}
+
 // Catches a light that outlasts its block, or is not there for later shapes, or for shapes without a surface.
 TEST(ReadLights, AreaLightsHoldForTheShapesOfTheirBlock) {
   const SceneDescription s = world_of(
@@ -144,6 +156,19 @@ TEST(ReadLights, ImagesAreTurnedAndScaled) {
   EXPECT_EQ(light.radiance, constant_spectrum(3));
   EXPECT_EQ(light.illuminance, 5);
   EXPECT_NEAR(light.world_from_light.vector({0, 0, 1}).y, 2, 1e-12);
+  EXPECT_FALSE(light.portal);
+}
+
+TEST(ReadLights, PortalsStandInTheWorld) {
+  const SceneDescription s = world_of(
+      "Rotate 90 1 0 0\nTranslate 1 2 3\nLightSource \"infinite\" \"string filename\" \"sky.exr\" "
+      "\"point3 portal\" [0 0 5  2 0 5  2 3 5  0 3 5]\nLightSource \"infinite\" \"rgb L\" [1 2 3] "
+      "\"point3 portal\" [0 0 5  0 3 5  2 3 5  2 0 5]");
+  ASSERT_EQ(s.lights.size(), 2u);
+  const auto &image = std::get<InfiniteLight>(s.lights[0].kind), &constant = std::get<InfiniteLight>(s.lights[1].kind);
+  EXPECT_EQ(image.portal, (std::array<Vector3, 4>{{{0, 0, 5}, {2, 0, 5}, {2, 3, 5}, {0, 3, 5}}}));
+  EXPECT_EQ(constant.portal, (std::array<Vector3, 4>{{{0, 0, 5}, {0, 3, 5}, {2, 3, 5}, {2, 0, 5}}}));
+  EXPECT_EQ(constant.radiance, (Spectrum{{1, 2, 3}}));
 }
 
 }  // namespace

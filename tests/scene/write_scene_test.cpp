@@ -129,6 +129,7 @@ void expect_equal(const ShapeDescription& a, const ShapeDescription& b) {
     EXPECT_EQ(mesh->triangles, other.triangles);
     EXPECT_EQ(mesh->normals, other.normals);
     EXPECT_EQ(mesh->uv, other.uv);
+    EXPECT_EQ(mesh->displacement, other.displacement);
   }
   if (const auto* patches = std::get_if<BilinearMeshShape>(&a.kind)) {
     const auto& other = std::get<BilinearMeshShape>(b.kind);
@@ -169,6 +170,7 @@ void expect_equal(const LightDescription& a, const LightDescription& b) {
     EXPECT_EQ(infinite->filename, other.filename);
     EXPECT_EQ(infinite->world_from_light, other.world_from_light);
     EXPECT_EQ(infinite->illuminance, other.illuminance);
+    EXPECT_EQ(infinite->portal, other.portal);
   }
   if (const auto* sphere = std::get_if<SphereLight>(&a.kind)) {
     const auto& other = std::get<SphereLight>(b.kind);
@@ -267,6 +269,15 @@ TEST(WriteScene, ExposureAndColourSpaceReadBackTheSame) {
   scene.camera.shutter_open = 0.25;
   scene.camera.shutter_close = 0.3;
   scene.lights.push_back({PointLight{{}, {{0.1f, 0.7f, 3}}}, {}});
+  expect_round_trip(scene);
+}
+
+TEST(WriteScene, PortalsReadBackTheSame) {
+  SceneDescription scene;
+  InfiniteLight constant{constant_spectrum(2)}, image{constant_spectrum(3), "/sky.exr", rotate(30, {1, 2, 3}), 5};
+  constant.portal = {{{0.1, 2, 3}, {1.1, 2, 3}, {1.1, 2, 4}, {0.1, 2, 4}}};
+  image.portal = {{{0.1, 2, 4}, {1.1, 2, 4}, {1.1, 2, 3}, {0.1, 2, 3}}};
+  scene.lights = {{constant, {}}, {image, {}}};
   expect_round_trip(scene);
 }
 
