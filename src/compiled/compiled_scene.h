@@ -175,7 +175,7 @@ struct CompiledShape {
   std::int32_t boundary = -1;  // below 0: the same media on both sides
   std::int32_t light = -1;     // the area light that it is; below 0: none
   std::int32_t alpha = -1;     // the texture of the share of rays that meet it; below 0: all do
-  bool is_textured = false;    // its material or its alpha depends on where a hit is
+  bool is_textured = false;    // its material, its alpha or its light depends on where a hit is
 };
 
 // A part of the scene's shapes that is placed as a whole.
@@ -214,6 +214,7 @@ struct CompiledLight {
   std::uint32_t shape_index = 0;
   bool two_sided = false;
   float area = 0;
+  std::int32_t texture = -1;             // what the radiance is multiplied by from place to place; below 0: 1
   std::uint32_t first_triangle_cdf = 0;  // mesh: in triangle_cdfs
 };
 

@@ -10,7 +10,8 @@ namespace brume {
 // A point of an area light as seen from elsewhere, with the unit normal that the light's front has there.
 struct LightPoint {
   kernel::vec3 position, normal;
-  float pdf = 0;  // of the direction to it, per steradian
+  float pdf = 0;              // of the direction to it, per steradian
+  std::array<float, 2> uv{};  // the place on a light that has a texture (see intersect/surface_uv.h)
 };
 
 // From p. Spheres: uniform over the cone of directions in which they are seen (of the unit sphere, before the affine
