@@ -260,6 +260,14 @@ Compiler::LightImage Compiler::light_image(const AreaLight& light) {
   return made;
 }
 
+// Whether its alpha is the number 0.
+bool Compiler::passes_all_rays(const CompiledShape& shape) const {
+  if (shape.alpha < 0) return false;
+  const CompiledTexture& alpha = compiled_.textures[static_cast<std::size_t>(shape.alpha)];
+  return alpha.kind == CompiledTexture::Kind::constant && is_zero(alpha.value);
+}
+
+// As pbrt has it, a light that no ray can meet shines as if there was all of it.
 void Compiler::add_area_lights(const AreaLight& light, std::vector<CompiledShape>& parts) {
   const LightImage image = light_image(light);
   const std::size_t first = compiled_.lights.size();
@@ -270,6 +278,8 @@ void Compiler::add_area_lights(const AreaLight& light, std::vector<CompiledShape
     c.value = light.radiance;
     c.two_sided = light.two_sided;
     c.texture = image.texture;
+    c.is_seen = !passes_all_rays(part);
+    if (c.is_seen) c.alpha = part.alpha;
     const double area = add_emitting_geometry(part, c);
     if (!(area > 0)) continue;
     total += area;
@@ -291,7 +301,9 @@ double Compiler::add_emitting_geometry(const CompiledShape& shape, CompiledLight
   light.shape_index = shape.index;
   if (shape.kind == CompiledShape::Kind::quadric) {
     const CompiledQuadric& q = compiled_.quadrics[shape.index];
-    const double turn_area = q.kind == CompiledQuadric::Kind::disk ? (1 - q.inner_radius * q.inner_radius) / 2 : 1;
+    const double turn_area = q.kind == CompiledQuadric::Kind::disk     ? (1 - q.inner_radius * q.inner_radius) / 2
+                             : q.kind == CompiledQuadric::Kind::sphere ? q.z_max - q.z_min
+                                                                       : 1;
     light.area = static_cast<float>(q.phi_max * turn_area);
     return world_area(q);
   }

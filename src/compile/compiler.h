@@ -78,6 +78,7 @@ class Compiler {
   void add_instances();
   void add_shape(const ShapeDescription& shape);
   void check_cut_out(const ShapeDescription& shape);
+  bool passes_all_rays(const CompiledShape& shape) const;
   // What the shape consists of, apart from materials, media and lights.
   std::vector<CompiledShape> add_geometry(const ShapeDescription& shape);
   CompiledShape add_quadric(const CompiledQuadric& quadric);

@@ -215,8 +215,12 @@ struct CompiledLight {
   bool two_sided = false;
   float area = 0;
   std::int32_t texture = -1;             // what the radiance is multiplied by from place to place; below 0: 1
+  std::int32_t alpha = -1;               // as its shape has it; below 0: all of its points shine
+  bool is_seen = true;                   // by rays that meet it
   std::uint32_t first_triangle_cdf = 0;  // mesh: in triangle_cdfs
 };
+
+inline bool is_textured(const CompiledLight& light) { return light.texture >= 0 || light.alpha >= 0; }
 
 // An image around the scene, constant in each of its pixels, and a table to draw pixels in proportion to the mean of
 // their channels times solid angle. Row i holds the pixels [i width, (i + 1) width); cumulative chances begin with 0

@@ -33,7 +33,7 @@ Cone cone_to_sphere(Vector3 from) {
 LightPoint light_point(const CompiledScene& scene, const CompiledLight& light, const CompiledQuadric& quadric,
                        Vector3 q, vec3 n, float pdf) {
   LightPoint point{to_float(quadric.world_from_object.point(q)), n, pdf};
-  if (light.texture >= 0) point.uv = surface_uv(scene, quadric, q);
+  if (is_textured(light)) point.uv = surface_uv(scene, quadric, q);
   return point;
 }
 
@@ -92,8 +92,8 @@ LightPoint sample_saddle(const CompiledScene& scene, const CompiledLight& light,
 }
 
 // Likewise.
-LightPoint sample_disk_or_cylinder(const CompiledScene& scene, const CompiledLight& light,
-                                   const CompiledQuadric& quadric, RandomStream::Pair numbers) {
+LightPoint sample_turned(const CompiledScene& scene, const CompiledLight& light, const CompiledQuadric& quadric,
+                         RandomStream::Pair numbers) {
   const auto [u, v] = numbers;
   const double phi = static_cast<double>(v) * quadric.phi_max, cosine = std::cos(phi), sine = std::sin(phi);
   Vector3 q{cosine, sine, static_cast<double>(u)}, n{cosine, sine, 0};
@@ -102,6 +102,10 @@ LightPoint sample_disk_or_cylinder(const CompiledScene& scene, const CompiledLig
     const double r = std::sqrt(inner2 + static_cast<double>(u) * (1 - inner2));
     q = {r * cosine, r * sine, 0};
     n = {0, 0, 1};
+  } else if (quadric.kind == CompiledQuadric::Kind::sphere) {
+    const double z = quadric.z_min + static_cast<double>(u) * (quadric.z_max - quadric.z_min);
+    const double ring = std::sqrt(std::max(0.0, 1 - z * z));
+    q = n = {ring * cosine, ring * sine, z};
   }
   const vec3 normal = to_float(normalize(transposed(quadric.object_from_world, n)));
   return light_point(scene, light, quadric, q, quadric.flip_normal ? -normal : normal,
@@ -137,8 +141,13 @@ LightPoint sample_mesh(const CompiledScene& scene, const CompiledLight& light, R
     if (dot(smooth, n) < 0) n = -n;
   }
   LightPoint point{p0 + b1 * e1 + b2 * e2, n, 1 / light.area};
-  if (light.texture >= 0) point.uv = triangle_uv(scene, mesh, triangle, b1, b2);
+  if (is_textured(light)) point.uv = triangle_uv(scene, mesh, triangle, b1, b2);
   return point;
+}
+
+// Of a sphere's near side and far side a ray can meet either one, where the near side has holes.
+bool is_drawn_by_direction(const CompiledLight& light, const CompiledQuadric& quadric) {
+  return quadric.kind == CompiledQuadric::Kind::sphere && light.alpha < 0;
 }
 
 const CompiledQuadric* quadric_of(const CompiledScene& scene, const CompiledLight& light) {
@@ -150,12 +159,10 @@ const CompiledQuadric* quadric_of(const CompiledScene& scene, const CompiledLigh
 LightPoint sample_area_light(const CompiledScene& scene, const CompiledLight& light, vec3 p,
                              RandomStream::Pair numbers) {
   const CompiledQuadric* quadric = quadric_of(scene, light);
-  if (quadric && quadric->kind == CompiledQuadric::Kind::sphere)
-    return sample_sphere(scene, light, *quadric, p, numbers);
-  LightPoint q = !quadric ? sample_mesh(scene, light, numbers)
-                 : quadric->kind == CompiledQuadric::Kind::saddle
-                     ? sample_saddle(scene, light, *quadric, numbers)
-                     : sample_disk_or_cylinder(scene, light, *quadric, numbers);
+  if (quadric && is_drawn_by_direction(light, *quadric)) return sample_sphere(scene, light, *quadric, p, numbers);
+  LightPoint q = !quadric                                         ? sample_mesh(scene, light, numbers)
+                 : quadric->kind == CompiledQuadric::Kind::saddle ? sample_saddle(scene, light, *quadric, numbers)
+                                                                  : sample_turned(scene, light, *quadric, numbers);
   const vec3 to_light = q.position - p;
   const float squared = dot(to_light, to_light), cosine = std::abs(dot(q.normal, to_light));  // times the distance
   q.pdf = cosine > 0 ? q.pdf * squared * std::sqrt(squared) / cosine : 0;
@@ -164,7 +171,7 @@ LightPoint sample_area_light(const CompiledScene& scene, const CompiledLight& li
 
 float area_light_pdf(const CompiledScene& scene, const CompiledLight& light, const Ray& ray, const SurfaceHit& hit) {
   const CompiledQuadric* quadric = quadric_of(scene, light);
-  if (quadric && quadric->kind == CompiledQuadric::Kind::sphere) return sphere_pdf(*quadric, ray);
+  if (quadric && is_drawn_by_direction(light, *quadric)) return sphere_pdf(*quadric, ray);
   float area = light.area;  // over the density of points there
   if (quadric && quadric->kind == CompiledQuadric::Kind::saddle)
     area = static_cast<float>(saddle_area(*quadric, quadric->object_from_world.point(to_double(ray.at(hit.t)))));

@@ -110,7 +110,10 @@ LightSample sample_area(const CompiledScene& scene, const CompiledLight& light, 
   SurfaceHit place;
   place.position = q.position;
   place.uv = q.uv;
-  return {{p, (1 / distance) * to_light, distance}, (1 / q.pdf) * radiance_at(scene, light, place), q.pdf};
+  const float share = light.alpha < 0 ? 1 : texture_reflectance(scene, light.alpha, place)[0];
+  return {{p, (1 / distance) * to_light, distance},
+          (share / q.pdf) * radiance_at(scene, light, place),
+          light.is_seen ? q.pdf : 0};
 }
 
 }  // namespace

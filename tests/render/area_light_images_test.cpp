@@ -103,17 +103,17 @@ class AreaLightImages : public ::testing::Test {
   int files_ = 0;
 };
 
-// A lamp of 2 x 2 pixels: red on the right, green above. Between their centres pixels mix, as pbrt has it.
-TEST_F(AreaLightImages, GiveAQuadItsIrradiance) {
-  const auto lamp = [](bool mirrored) {
-    ShapeDescription s = emitter(QuadShape{{-0.2, -0.5, -1}, {1.4, 0, 0}, {0, 1.6, 0}}, Transform());
-    if (mirrored) s.kind = QuadShape{{1.2, 1.1, -1}, {-1.4, 0, 0}, {0, -1.6, 0}};
-    s.light->radiance = constant_spectrum(2);
-    return s;
-  };
-  const std::string path = write(2, 2, [](int column, int row) {
-    return Spectrum{{static_cast<float>(column), static_cast<float>(1 - row), 1}};
-  });
+// A quad of radiance 2 at z = -1; or the same, its image turned.
+ShapeDescription lamp(bool turned) {
+  ShapeDescription s = emitter(QuadShape{{-0.2, -0.5, -1}, {1.4, 0, 0}, {0, 1.6, 0}}, Transform());
+  if (turned) s.kind = QuadShape{{1.2, 1.1, -1}, {-1.4, 0, 0}, {0, -1.6, 0}};
+  s.light->radiance = constant_spectrum(2);
+  return s;
+}
+
+// What the square sends back of its light, where its image has 2 x 2 pixels, between whose centres they mix: in the
+// first channel dark ones on the left and bright ones on the right, in the second below and above, then all bright.
+std::vector<Expected> reflected_of_lamp() {
   const auto ramp = [](double t) { return std::clamp(2 * t - 0.5, 0.0, 1.0); };
   constexpr int steps = 500;
   std::vector<Expected> expected(3, {0, 0});
@@ -126,9 +126,35 @@ TEST_F(AreaLightImages, GiveAQuadItsIrradiance) {
       expected[2].value += share;
     }
   for (Expected& e : expected) e.rounding = 1e-4 * e.value;
+  return expected;
+}
+
+TEST_F(AreaLightImages, GiveAQuadItsIrradiance) {
+  const std::string path = write(2, 2, [](int column, int row) {
+    return Spectrum{{static_cast<float>(column), static_cast<float>(1 - row), 1}};
+  });
+  const std::vector<Expected> expected = reflected_of_lamp();
   for (const char* integrator : integrators) {
     expect_estimates(lit_square(integrator, with_image({lamp(false)}, path)), expected, 2e-3);
     expect_rejected(lit_square(integrator, with_image({lamp(true)}, path)), expected, 2e-3);
+  }
+}
+
+// Before black, holes are as good as dark pixels.
+TEST_F(AreaLightImages, CutHolesAsDarkAsTheirPixels) {
+  ImageTexture image;
+  image.wrap = ImageTexture::Wrap::clamp;
+  image.filename = write(2, 1, [](int column, int) { return constant_spectrum(static_cast<float>(column)); });
+  const std::vector<Expected> expected = {reflected_of_lamp()[0]};
+  const auto scene = [&](const char* integrator, bool turned) {
+    SceneDescription s = lit_square(integrator, {lamp(turned)});
+    s.textures = {{"alpha", true, image, {}}};
+    s.shapes[0].alpha.texture = 0;
+    return s;
+  };
+  for (const char* integrator : integrators) {
+    expect_estimates(scene(integrator, false), expected, 2e-3);
+    expect_rejected(scene(integrator, true), expected, 2e-3);
   }
 }
 

@@ -43,4 +43,14 @@ std::vector<Emitters> emitter_cases() {
       {"several", {tube, quad, emitter(mesh, translate({-0.9, 0, 0}))}}};
 }
 
+std::vector<Emitters> cut_out_emitter_cases() {
+  std::vector<Emitters> all = emitter_cases();
+  for (Emitters& emitters : all)
+    for (ShapeDescription& shape : emitters.shapes) {
+      shape.light->two_sided = true;
+      shape.alpha = constant_spectrum(0.4f);
+    }
+  return all;
+}
+
 }  // namespace brume

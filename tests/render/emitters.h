@@ -19,5 +19,7 @@ struct Emitters {
   std::vector<ShapeDescription> shapes;
 };
 std::vector<Emitters> emitter_cases();
+// Such with holes, that shine on both sides: rays that pass one side of them can meet the other.
+std::vector<Emitters> cut_out_emitter_cases();
 
 }  // namespace brume
