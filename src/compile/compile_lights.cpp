@@ -68,6 +68,17 @@ double illuminance(const CompiledEnvironment& e) {
   return sum;
 }
 
+// Of all pixels; negative values are taken as 0.
+Spectrum mean_colour(const CompiledImage& image) {
+  std::array<double, channel_count> sums{};
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    sums[i % channel_count] += static_cast<double>(std::max(0.0f, image.pixels[i]));
+  const double count = static_cast<double>(image.width) * image.height;
+  Spectrum mean;
+  for (std::size_t c = 0; c < sums.size(); ++c) mean.value[c] = static_cast<float>(sums[c] / count);
+  return mean;
+}
+
 // Turns and mirrors, without stretching: the columns of the map at length 1.
 Transform rotation(const Transform& t) {
   Transform r;
@@ -263,7 +274,38 @@ bool Compiler::read_environment(const std::string& filename, const Location& loc
   return true;
 }
 
+Compiler::LightImage Compiler::light_image(const AreaLight& light) {
+  if (light.filename.empty()) return {};
+  const auto [known, is_new] = light_images_.try_emplace(light.filename);
+  LightImage& made = known->second;
+  if (!is_new) return made;
+  ImageTexture picture;
+  picture.filename = light.filename;
+  CompiledTexture texture;
+  texture.kind = CompiledTexture::Kind::image;
+  texture.image = image_index(picture, false, "AreaLightSource \"diffuse\"", light.location);
+  texture.wrap = CompiledTexture::Wrap::clamp;
+  if (texture.image < 0) return made;
+  const CompiledImage& image = compiled_.images[static_cast<std::size_t>(texture.image)];
+  if (*std::min_element(image.pixels.begin(), image.pixels.end()) < 0)
+    warnings_.push_back({Severity::warning,
+                         light.location,
+                         fmt::format("{} has negative pixels; they are taken as 0", light.filename),
+                         {}});
+  made = {add_texture(texture), mean_colour(image)};
+  return made;
+}
+
+// Whether its alpha is the number 0.
+bool Compiler::passes_all_rays(const CompiledShape& shape) const {
+  if (shape.alpha < 0) return false;
+  const CompiledTexture& alpha = compiled_.textures[static_cast<std::size_t>(shape.alpha)];
+  return alpha.kind == CompiledTexture::Kind::constant && is_zero(alpha.value);
+}
+
+// As pbrt has it, a light that no ray can meet shines as if there was all of it.
 void Compiler::add_area_lights(const AreaLight& light, std::vector<CompiledShape>& parts) {
+  const LightImage image = light_image(light);
   const std::size_t first = compiled_.lights.size();
   double total = 0;  // area
   for (CompiledShape& part : parts) {
@@ -271,17 +313,22 @@ void Compiler::add_area_lights(const AreaLight& light, std::vector<CompiledShape
     c.kind = CompiledLight::Kind::area;
     c.value = light.radiance;
     c.two_sided = light.two_sided;
+    c.texture = image.texture;
+    c.is_seen = !passes_all_rays(part);
+    if (c.is_seen) c.alpha = part.alpha;
     const double area = add_emitting_geometry(part, c);
     if (!(area > 0)) continue;
     total += area;
     part.light = static_cast<std::int32_t>(compiled_.lights.size());
-    light_areas_.push_back({compiled_.lights.size(), area});
+    part.is_textured = part.is_textured || c.texture >= 0;
+    light_areas_.push_back({compiled_.lights.size(), area, mean(image.mean)});
     compiled_.lights.push_back(c);
   }
-  if (!(light.power > 0 && total > 0)) return;
+  const double sides = light.two_sided ? 2 : 1, unit = pi * total * sides * luminance(image.mean);
+  if (!(light.power > 0 && unit > 0)) return;
   for (std::size_t i = first; i < compiled_.lights.size(); ++i) {
     Spectrum& value = compiled_.lights[i].value;
-    value = static_cast<float>(light.power / (pi * total * (light.two_sided ? 2 : 1))) * value;
+    value = static_cast<float>(light.power / unit) * value;
   }
 }
 
@@ -290,7 +337,9 @@ double Compiler::add_emitting_geometry(const CompiledShape& shape, CompiledLight
   light.shape_index = shape.index;
   if (shape.kind == CompiledShape::Kind::quadric) {
     const CompiledQuadric& q = compiled_.quadrics[shape.index];
-    const double turn_area = q.kind == CompiledQuadric::Kind::disk ? (1 - q.inner_radius * q.inner_radius) / 2 : 1;
+    const double turn_area = q.kind == CompiledQuadric::Kind::disk     ? (1 - q.inner_radius * q.inner_radius) / 2
+                             : q.kind == CompiledQuadric::Kind::sphere ? q.z_max - q.z_min
+                                                                       : 1;
     light.area = static_cast<float>(q.phi_max * turn_area);
     return world_area(q);
   }
@@ -330,8 +379,8 @@ void Compiler::add_light_choice() {
     if (light.kind == CompiledLight::Kind::image)
       powers[i] *= pi * mean_brightness_[static_cast<std::size_t>(light.environment)] * lit_area(light);
   }
-  for (const auto& [light, area] : light_areas_)
-    powers[light] *= pi * area * (compiled_.lights[light].two_sided ? 2 : 1);
+  for (const auto& [light, area, brightness] : light_areas_)
+    powers[light] *= brightness * pi * area * (compiled_.lights[light].two_sided ? 2 : 1);
   double total = 0;
   for (const double p : powers) total += p;
   for (double& p : powers) p = equal_part / static_cast<double>(n) + (total > 0 ? (1 - equal_part) * p / total : 0);

@@ -160,10 +160,9 @@ void Compiler::add_shape(const ShapeDescription& shape) {
 
 // A ray that passes a cut-out is as far into media as before, so a cut-out bounds none.
 void Compiler::check_cut_out(const ShapeDescription& shape) {
-  const char* what = shape.light                                              ? "shines"
-                     : !shape.inside.empty() && shape.inside != shape.outside ? "has a medium inside"
-                     : absorption_of(shape)                                   ? "absorbs"
-                                                                              : nullptr;
+  const char* what = !shape.inside.empty() && shape.inside != shape.outside ? "has a medium inside"
+                     : absorption_of(shape)                                 ? "absorbs"
+                                                                            : nullptr;
   if (what) error(shape.location, std::string("\"alpha\" of a shape that ") + what + " must be 1");
 }
 

@@ -73,7 +73,8 @@ void Compiler::add_textures() {
     } else {
       const auto& image = std::get<ImageTexture>(description.kind);
       t.kind = Kind::image;
-      t.image = image_index(description);
+      t.image = image_index(image, description.is_float, fmt::format("Texture \"{}\"", description.name),
+                            description.location);
       t.mapping = compile_mapping(image.mapping);
       t.wrap = static_cast<CompiledTexture::Wrap>(image.wrap);
       t.bilinear = image.bilinear;
@@ -84,22 +85,21 @@ void Compiler::add_textures() {
   }
 }
 
-std::int32_t Compiler::image_index(const TextureDescription& texture) {
-  const auto& from = std::get<ImageTexture>(texture.kind);
-  const auto [known, is_new] = images_.try_emplace({from.filename, from.gamma, texture.is_float}, -1);
+std::int32_t Compiler::image_index(const ImageTexture& from, bool is_float, const std::string& owner,
+                                   const Location& location) {
+  const auto [known, is_new] = images_.try_emplace({from.filename, from.gamma, is_float}, -1);
   if (!is_new) return known->second;
   try {
     Image image = read_encoded_image(from.filename, from.gamma);
     if (!std::all_of(image.pixels.begin(), image.pixels.end(), [](float v) { return std::isfinite(v); })) {
-      error(texture.location, fmt::format("{} has pixels that are infinite or not a number", from.filename));
+      error(location, fmt::format("{} has pixels that are infinite or not a number", from.filename));
       return -1;
     }
-    compiled_.images.push_back(compile_image(std::move(image), texture.is_float));
+    compiled_.images.push_back(compile_image(std::move(image), is_float));
     known->second = static_cast<std::int32_t>(compiled_.images.size() - 1);
   } catch (const InputError& fault) {
     for (const Diagnostic& d : fault.diagnostics())
-      error(texture.location,
-            fmt::format("the image of Texture \"{}\": {}: {}", texture.name, d.location.file, d.message));
+      error(location, fmt::format("the image of {}: {}: {}", owner, d.location.file, d.message));
   }
   return known->second;
 }

@@ -36,6 +36,13 @@ class Compiler {
   bool read_environment(const std::string& filename, const Location& location, CompiledEnvironment& environment);
   // Lights that the parts of a shape are, whose geometry is there already.
   void add_area_lights(const AreaLight& light, std::vector<CompiledShape>& parts);
+  // What an area light's radiance is multiplied by over its shape, and the mean of that.
+  struct LightImage {
+    std::int32_t texture = -1;  // below 0: 1 everywhere
+    Spectrum mean = constant_spectrum(1);
+  };
+  // Read on first use.
+  LightImage light_image(const AreaLight& light);
   // The light's place, and its area in the world.
   double add_emitting_geometry(const CompiledShape& shape, CompiledLight& light);
   // Fills in with which chance each light is chosen.
@@ -71,6 +78,7 @@ class Compiler {
   void add_instances();
   void add_shape(const ShapeDescription& shape);
   void check_cut_out(const ShapeDescription& shape);
+  bool passes_all_rays(const CompiledShape& shape) const;
   // What the shape consists of, apart from materials, media and lights.
   std::vector<CompiledShape> add_geometry(const ShapeDescription& shape);
   CompiledShape add_quadric(const CompiledQuadric& quadric);
@@ -89,8 +97,8 @@ class Compiler {
   std::int32_t add_texture(const CompiledTexture& texture);
   // The compiled texture that a texture's operand is.
   std::int32_t operand(const Textured& value);
-  // The index of the texture's picture, which is read on first use; below 0 after an error.
-  std::int32_t image_index(const TextureDescription& texture);
+  // The index of a picture of `owner`, which is read on first use; below 0 after an error.
+  std::int32_t image_index(const ImageTexture& from, bool is_float, const std::string& owner, const Location& location);
 
   void error(const Location& location, const std::string& message);
 
@@ -104,12 +112,14 @@ class Compiler {
   std::vector<double> mean_brightness_;  // of the environments
   struct LightArea {
     std::size_t light;
-    double area;  // in the world
+    double area;        // in the world
+    double brightness;  // the mean of what its radiance is multiplied by
   };
   std::vector<LightArea> light_areas_;                            // of the area lights
   std::size_t first_world_vertex_ = 0, first_world_quadric_ = 0;  // those before belong to objects
   std::vector<std::int32_t> textures_;  // in the compiled scene, by the index of their description
   std::map<std::tuple<std::string, double, bool>, std::int32_t> images_;  // by file, gamma and whether of numbers
+  std::map<std::string, LightImage> light_images_;                        // by file
   std::map<std::string, LoadedGrid> grids_;                               // by file, grid, storage and interpolation
 };
 

@@ -175,7 +175,7 @@ struct CompiledShape {
   std::int32_t boundary = -1;  // below 0: the same media on both sides
   std::int32_t light = -1;     // the area light that it is; below 0: none
   std::int32_t alpha = -1;     // the texture of the share of rays that meet it; below 0: all do
-  bool is_textured = false;    // its material or its alpha depends on where a hit is
+  bool is_textured = false;    // its material, its alpha or its light depends on where a hit is
 };
 
 // A part of the scene's shapes that is placed as a whole.
@@ -215,8 +215,13 @@ struct CompiledLight {
   std::uint32_t shape_index = 0;
   bool two_sided = false;
   float area = 0;
+  std::int32_t texture = -1;             // what the radiance is multiplied by from place to place; below 0: 1
+  std::int32_t alpha = -1;               // as its shape has it; below 0: all of its points shine
+  bool is_seen = true;                   // by rays that meet it
   std::uint32_t first_triangle_cdf = 0;  // mesh: in triangle_cdfs
 };
+
+inline bool is_textured(const CompiledLight& light) { return light.texture >= 0 || light.alpha >= 0; }
 
 // An image around the scene, constant in each of its pixels, and a table to draw pixels in proportion to the mean of
 // their channels times solid angle. Row i holds the pixels [i width, (i + 1) width); cumulative chances begin with 0

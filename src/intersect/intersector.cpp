@@ -9,6 +9,7 @@
 
 #include "intersect/attached_shape.h"
 #include "intersect/cut_outs.h"
+#include "intersect/surface_uv.h"
 
 namespace brume {
 
@@ -183,17 +184,16 @@ struct Intersector::Embree {
       normal = vec3(rtc.Ng_x, rtc.Ng_y, rtc.Ng_z);
       if (mesh.flip_normal) normal = -normal;
       if (mesh.has_normals) smooth = triangle_normal(rtc, mesh);
-      if (shape.is_textured) hit.uv = triangle_uv(rtc, mesh);
+      if (shape.is_textured) hit.uv = triangle_uv(scene, mesh, rtc.primID, rtc.u, rtc.v);
     } else {
       const CompiledQuadric& quadric = scene.quadrics[shape.index];
       Vector3 p = to_double(hit.position);
       if (instance) p = instance->object_from_world.point(p);
       p = quadric.object_from_world.point(p);
       normal = to_float(quadric_normal(quadric, p));
-      const CompiledPatch* patch =
-          quadric.patch < 0 ? nullptr : &scene.patches[static_cast<std::size_t>(quadric.patch)];
-      if (patch) smooth = to_vec3(at_patch(patch->normals, p));
-      if (shape.is_textured) hit.uv = patch ? at_patch(patch->uv, p) : quadric_uv(quadric, p);
+      if (quadric.patch >= 0)
+        smooth = to_vec3(at_patch(scene.patches[static_cast<std::size_t>(quadric.patch)].normals, p));
+      if (shape.is_textured) hit.uv = surface_uv(scene, quadric, p);
     }
     if (instance) {
       normal = to_world(*instance, normal);
@@ -212,23 +212,13 @@ struct Intersector::Embree {
     return to_float(normalize(transposed(instance.object_from_world, to_double(n))));
   }
 
-  // What the corners of a hit triangle have, by the hit's weights; not normalised.
+  // By the hit's weights of the corners; not normalised.
   vec3 triangle_normal(const RTCHit& rtc, const CompiledMesh& mesh) const {
     const auto at = [&, first = mesh.first_vertex](std::uint32_t corner) {
       return to_vec3(scene.normals[first + corner]);
     };
     const auto& [a, b, c] = scene.triangles[mesh.first_triangle + rtc.primID];
     return (1 - rtc.u - rtc.v) * at(a) + rtc.u * at(b) + rtc.v * at(c);
-  }
-  std::array<float, 2> triangle_uv(const RTCHit& rtc, const CompiledMesh& mesh) const {
-    if (mesh.first_uv < 0) return {rtc.u + rtc.v, rtc.v};
-    const auto& triangle = scene.triangles[mesh.first_triangle + rtc.primID];
-    const float weights[3] = {1 - rtc.u - rtc.v, rtc.u, rtc.v};
-    std::array<float, 2> uv{};
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t k = 0; k < 2; ++k)
-        uv[k] += weights[i] * scene.uvs[static_cast<std::size_t>(mesh.first_uv) + triangle[i]][k];
-    return uv;
   }
 };
 

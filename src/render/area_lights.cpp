@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "intersect/quadric.h"
+#include "intersect/surface_uv.h"
 
 namespace brume {
 
@@ -29,9 +29,18 @@ Cone cone_to_sphere(Vector3 from) {
   return {normalize(-from), sine2 / (1 + std::sqrt(1 - sine2))};
 }
 
+// The point q of the quadric's own space, where the unit normal is n.
+LightPoint light_point(const CompiledScene& scene, const CompiledLight& light, const CompiledQuadric& quadric,
+                       Vector3 q, vec3 n, float pdf) {
+  LightPoint point{to_float(quadric.world_from_object.point(q)), n, pdf};
+  if (is_textured(light)) point.uv = surface_uv(scene, quadric, q);
+  return point;
+}
+
 // Directions d of object space and w = M d / |M d| of the world, M the affine map's 3 x 3 part: a solid angle grows by
 // |det M| / |M d|^3.
-LightPoint sample_sphere(const CompiledQuadric& sphere, vec3 p, RandomStream::Pair numbers) {
+LightPoint sample_sphere(const CompiledScene& scene, const CompiledLight& light, const CompiledQuadric& sphere, vec3 p,
+                         RandomStream::Pair numbers) {
   const Vector3 from = sphere.object_from_world.point(to_double(p));
   const Cone cone = cone_to_sphere(from);
   const auto [u, turns] = numbers;
@@ -48,7 +57,7 @@ LightPoint sample_sphere(const CompiledQuadric& sphere, vec3 p, RandomStream::Pa
   const double stretch = length(sphere.world_from_object.vector(d));
   const double pdf = cone.density() * stretch * stretch * stretch / std::abs(sphere.world_from_object.determinant());
   const Vector3 n = normalize(transposed(sphere.object_from_world, q));
-  return {to_float(sphere.world_from_object.point(q)), to_float(sphere.flip_normal ? -n : n), static_cast<float>(pdf)};
+  return light_point(scene, light, sphere, q, to_float(sphere.flip_normal ? -n : n), static_cast<float>(pdf));
 }
 
 float sphere_pdf(const CompiledQuadric& sphere, const Ray& ray) {
@@ -73,16 +82,18 @@ vec3 saddle_normal(const CompiledScene& scene, const CompiledQuadric& saddle, Ve
 }
 
 // A point and its density per unit of area.
-LightPoint sample_saddle(const CompiledScene& scene, const CompiledQuadric& saddle, RandomStream::Pair numbers) {
+LightPoint sample_saddle(const CompiledScene& scene, const CompiledLight& light, const CompiledQuadric& saddle,
+                         RandomStream::Pair numbers) {
   const auto [u, v] = numbers;
   const double x = static_cast<double>(u), y = static_cast<double>(v);
   const Vector3 q{x, y, x * y};
-  return {to_float(saddle.world_from_object.point(q)), saddle_normal(scene, saddle, q),
-          static_cast<float>(1 / saddle_area(saddle, q))};
+  return light_point(scene, light, saddle, q, saddle_normal(scene, saddle, q),
+                     static_cast<float>(1 / saddle_area(saddle, q)));
 }
 
 // Likewise.
-LightPoint sample_disk_or_cylinder(const CompiledQuadric& quadric, float area, RandomStream::Pair numbers) {
+LightPoint sample_turned(const CompiledScene& scene, const CompiledLight& light, const CompiledQuadric& quadric,
+                         RandomStream::Pair numbers) {
   const auto [u, v] = numbers;
   const double phi = static_cast<double>(v) * quadric.phi_max, cosine = std::cos(phi), sine = std::sin(phi);
   Vector3 q{cosine, sine, static_cast<double>(u)}, n{cosine, sine, 0};
@@ -91,10 +102,14 @@ LightPoint sample_disk_or_cylinder(const CompiledQuadric& quadric, float area, R
     const double r = std::sqrt(inner2 + static_cast<double>(u) * (1 - inner2));
     q = {r * cosine, r * sine, 0};
     n = {0, 0, 1};
+  } else if (quadric.kind == CompiledQuadric::Kind::sphere) {
+    const double z = quadric.z_min + static_cast<double>(u) * (quadric.z_max - quadric.z_min);
+    const double ring = std::sqrt(std::max(0.0, 1 - z * z));
+    q = n = {ring * cosine, ring * sine, z};
   }
   const vec3 normal = to_float(normalize(transposed(quadric.object_from_world, n)));
-  return {to_float(quadric.world_from_object.point(q)), quadric.flip_normal ? -normal : normal,
-          1 / (area * static_cast<float>(area_growth(quadric, normal)))};
+  return light_point(scene, light, quadric, q, quadric.flip_normal ? -normal : normal,
+                     1 / (light.area * static_cast<float>(area_growth(quadric, normal))));
 }
 
 vec3 vertex(const std::vector<std::array<float, 3>>& from, std::uint32_t index) {
@@ -125,7 +140,14 @@ LightPoint sample_mesh(const CompiledScene& scene, const CompiledLight& light, R
     const vec3 smooth = (1 - b1 - b2) * at(scene.normals, 0) + b1 * at(scene.normals, 1) + b2 * at(scene.normals, 2);
     if (dot(smooth, n) < 0) n = -n;
   }
-  return {p0 + b1 * e1 + b2 * e2, n, 1 / light.area};
+  LightPoint point{p0 + b1 * e1 + b2 * e2, n, 1 / light.area};
+  if (is_textured(light)) point.uv = triangle_uv(scene, mesh, triangle, b1, b2);
+  return point;
+}
+
+// Of a sphere's near side and far side a ray can meet either one, where the near side has holes.
+bool is_drawn_by_direction(const CompiledLight& light, const CompiledQuadric& quadric) {
+  return quadric.kind == CompiledQuadric::Kind::sphere && light.alpha < 0;
 }
 
 const CompiledQuadric* quadric_of(const CompiledScene& scene, const CompiledLight& light) {
@@ -137,11 +159,10 @@ const CompiledQuadric* quadric_of(const CompiledScene& scene, const CompiledLigh
 LightPoint sample_area_light(const CompiledScene& scene, const CompiledLight& light, vec3 p,
                              RandomStream::Pair numbers) {
   const CompiledQuadric* quadric = quadric_of(scene, light);
-  if (quadric && quadric->kind == CompiledQuadric::Kind::sphere) return sample_sphere(*quadric, p, numbers);
-  LightPoint q = !quadric ? sample_mesh(scene, light, numbers)
-                 : quadric->kind == CompiledQuadric::Kind::saddle
-                     ? sample_saddle(scene, *quadric, numbers)
-                     : sample_disk_or_cylinder(*quadric, light.area, numbers);
+  if (quadric && is_drawn_by_direction(light, *quadric)) return sample_sphere(scene, light, *quadric, p, numbers);
+  LightPoint q = !quadric                                         ? sample_mesh(scene, light, numbers)
+                 : quadric->kind == CompiledQuadric::Kind::saddle ? sample_saddle(scene, light, *quadric, numbers)
+                                                                  : sample_turned(scene, light, *quadric, numbers);
   const vec3 to_light = q.position - p;
   const float squared = dot(to_light, to_light), cosine = std::abs(dot(q.normal, to_light));  // times the distance
   q.pdf = cosine > 0 ? q.pdf * squared * std::sqrt(squared) / cosine : 0;
@@ -150,7 +171,7 @@ LightPoint sample_area_light(const CompiledScene& scene, const CompiledLight& li
 
 float area_light_pdf(const CompiledScene& scene, const CompiledLight& light, const Ray& ray, const SurfaceHit& hit) {
   const CompiledQuadric* quadric = quadric_of(scene, light);
-  if (quadric && quadric->kind == CompiledQuadric::Kind::sphere) return sphere_pdf(*quadric, ray);
+  if (quadric && is_drawn_by_direction(light, *quadric)) return sphere_pdf(*quadric, ray);
   float area = light.area;  // over the density of points there
   if (quadric && quadric->kind == CompiledQuadric::Kind::saddle)
     area = static_cast<float>(saddle_area(*quadric, quadric->object_from_world.point(to_double(ray.at(hit.t)))));

@@ -10,12 +10,13 @@ namespace brume {
 // A point of an area light as seen from elsewhere, with the unit normal that the light's front has there.
 struct LightPoint {
   kernel::vec3 position, normal;
-  float pdf = 0;  // of the direction to it, per steradian
+  float pdf = 0;              // of the direction to it, per steradian
+  std::array<float, 2> uv{};  // the place on a light that is textured (see intersect/surface_uv.h)
 };
 
-// From p. Spheres: uniform over the cone of directions in which they are seen (of the unit sphere, before the affine
-// map), pdf 0 where a part of a sphere is not met there. Saddles: uniform over the unit square. Others: uniform over
-// the area (before the affine map).
+// From p. Spheres without holes: uniform over the cone of directions in which they are seen (of the unit sphere, before
+// the affine map), pdf 0 where a part of a sphere is not met there. Saddles: uniform over the unit square. Others:
+// uniform over the area (before the affine map).
 LightPoint sample_area_light(const CompiledScene& scene, const CompiledLight& light, kernel::vec3 p,
                              RandomStream::Pair numbers);
 

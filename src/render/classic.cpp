@@ -323,7 +323,7 @@ void ClassicIntegrator::direct_light(const Branch& branch, const SurfaceHit& hit
       float facet_pdf = 0;
       const Spectrum facets = eval_facets(scene_, hit, ray.direction, to_light, facet_pdf);
       const float light_pdf = static_cast<float>(count) * s.pdf,
-                  share = extends ? light_pdf / (light_pdf + facet_pdf) : 1;
+                  share = light_pdf > 0 ? light_pdf / (light_pdf + facet_pdf) : 1;
       const Spectrum reflected = eval_matt(scene_, hit, ray.direction, to_light) + (facet_pdf > 0 ? share : 0) * facets;
       send_shadow_ray(started_at(leave_towards(p, hit, to_light), s.ray), random,
                       (1 / static_cast<float>(count)) * branch.throughput * s.value * reflected, true);

@@ -135,6 +135,11 @@ LightSample sample_through_portal(const CompiledScene& scene, const CompiledLigh
   return {ray, (1 / pdf) * radiance, pdf};
 }
 
+// At a place on an area light, of its front or its back.
+Spectrum radiance_at(const CompiledScene& scene, const CompiledLight& light, const SurfaceHit& place) {
+  return light.texture < 0 ? light.value : light.value * texture_value(scene, light.texture, place);
+}
+
 LightSample sample_area(const CompiledScene& scene, const CompiledLight& light, vec3 p, RandomStream::Pair numbers) {
   const LightPoint q = sample_area_light(scene, light, p, numbers);
   // The shadow ray is to end short of the light's surface, also where it starts a little off another one.
@@ -146,7 +151,13 @@ LightSample sample_area(const CompiledScene& scene, const CompiledLight& light, 
   const bool is_apart = dot(n, to_light) < 0;
   const bool lit = (light.two_sided || dot(q.normal, towards) < 0) && q.pdf > 0 && is_apart;
   if (!lit) return {{p, {0, 0, 1}, far_away}, {}, 0};
-  return {{p, (1 / distance) * to_light, distance}, (1 / q.pdf) * light.value, q.pdf};
+  SurfaceHit place;
+  place.position = q.position;
+  place.uv = q.uv;
+  const float share = light.alpha < 0 ? 1 : texture_reflectance(scene, light.alpha, place)[0];
+  return {{p, (1 / distance) * to_light, distance},
+          (share / q.pdf) * radiance_at(scene, light, place),
+          light.is_seen ? q.pdf : 0};
 }
 
 }  // namespace
@@ -222,7 +233,7 @@ Spectrum emitted_radiance(const CompiledScene& scene, const SurfaceHit& hit, vec
   const std::int32_t index = scene.shapes[static_cast<std::size_t>(hit.shape)].light;
   if (index < 0) return {};
   const CompiledLight& light = scene.lights[static_cast<std::size_t>(index)];
-  return light.two_sided || dot(hit.normal, direction) < 0 ? light.value : Spectrum{};
+  return light.two_sided || dot(hit.normal, direction) < 0 ? radiance_at(scene, light, hit) : Spectrum{};
 }
 
 }  // namespace brume

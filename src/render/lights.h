@@ -15,8 +15,9 @@ struct LightChoice {
 LightChoice choose_light(const CompiledScene& scene, float u);
 
 // One direction towards a light. `value` is radiance times solid angle, that is the light's radiance over the density
-// `pdf` with which the direction was chosen; point and distant lights have one direction, pdf 0, and their irradiance
-// of a facing surface. The ray ends short of the light's own surface.
+// `pdf` with which the direction was chosen. Where no ray can find the light's radiance by itself, the pdf is 0: so for
+// area lights that are not seen, and for point and distant lights, which have one direction and their irradiance of a
+// facing surface. The ray ends short of the light's own surface.
 struct LightSample {
   Ray ray;
   Spectrum value;

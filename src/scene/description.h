@@ -300,7 +300,11 @@ struct VolumeShape {};
 struct AreaLight {
   Spectrum radiance;
   bool two_sided = false;
-  double power = 0;  // above 0: `radiance` is to be multiplied by power / (pi area), halved where two-sided
+  // Above 0: `radiance` is to be multiplied by power / (pi area), halved where two-sided, and divided by the image's
+  // mean luminance.
+  double power = 0;
+  std::string filename{};  // of an image over the shape's (u, v) that multiplies `radiance`, resolved; "" for none
+  Location location{};
 };
 
 struct ShapeDescription {

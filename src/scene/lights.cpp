@@ -34,6 +34,14 @@ Spectrum read_colour(ParameterList& p, std::string_view name, std::string_view t
   return product;
 }
 
+// What an image is multiplied by, which takes the place of the colour L.
+Spectrum read_image_scale(ParameterList& p) {
+  for (const ParameterType type : {ParameterType::rgb, ParameterType::spectrum, ParameterType::blackbody})
+    if (const Parameter* colour = p.find(type, "L"))
+      p.value_error(*colour, 0, "has no place beside \"string filename\"; give a \"float scale\"");
+  return constant_spectrum(static_cast<float>(p.number("scale", 1, Range::at_least(0))));
+}
+
 // A unit vector stays as it is, to the last bit.
 Vector3 unit(Vector3 v) {
   const double square = dot(v, v);
@@ -127,14 +135,11 @@ InfiniteLight Reader::infinite_light(ParameterList& p, const Transform& ctm) {
     light.radiance = read_colour(p, "L", "illuminance", std::numbers::pi);
     return light;
   }
-  for (const ParameterType type : {ParameterType::rgb, ParameterType::spectrum, ParameterType::blackbody})
-    if (const Parameter* colour = p.find(type, "L"))
-      p.value_error(*colour, 0, "has no place beside \"string filename\"; give a \"float scale\"");
+  light.radiance = read_image_scale(p);
   if (!keeps_angles(ctm))
     p.error(p.place(),
             "the image of LightSource \"infinite\" may be turned and mirrored, but the current "
             "transformation stretches it");
-  light.radiance = constant_spectrum(static_cast<float>(p.number("scale", 1, Range::at_least(0))));
   light.filename = resolve(name);
   light.world_from_light = ctm;
   light.illuminance = std::max(0.0, p.number("illuminance", -1));
@@ -174,9 +179,11 @@ void Reader::area_light_source() {
   modernise(type, "area", "diffuse");
   if (type != "diffuse") unknown_type(argument_, "AreaLightSource", type, {"diffuse"}, {});
   ParameterList p = parameters("AreaLightSource \"diffuse\"", "light");
-  p.refuse({"string filename"}, "is not supported yet: area lights have one colour");
   AreaLight light;
-  light.radiance = read_colour(p, "L", "", 1);
+  light.location = location(directive_.place);
+  const std::string name = p.string("filename", "");
+  if (!name.empty()) light.filename = resolve(name);
+  light.radiance = name.empty() ? read_colour(p, "L", "", 1) : read_image_scale(p);
   light.two_sided = p.boolean("twosided", false);
   light.power = std::max(0.0, p.number("power", -1));
   p.finish();

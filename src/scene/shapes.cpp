@@ -136,8 +136,8 @@ BilinearMeshShape read_bilinear_mesh(ParameterList& p) {
   else
     p.ignore({"integer indices"});
   read_vertex_values(p, mesh);
-  p.refuse({"string emissionfilename"}, "is not supported yet");
-  p.ignore({"integer faceIndices"});
+  // pbrt draws the points of a light by the image: that changes the noise, and not what the light sends out.
+  p.ignore({"integer faceIndices", "string emissionfilename"});
   return mesh;
 }
 

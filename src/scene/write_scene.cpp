@@ -397,7 +397,10 @@ class Writer {
 
   void area_light(const AreaLight& l) {
     line("AreaLightSource \"diffuse\" \"bool twosided\" {}", l.two_sided);
-    colour("L", l.radiance);
+    if (l.filename.empty())
+      colour("L", l.radiance);
+    else
+      line("  \"string filename\" {} \"float scale\" {}", quoted(l.filename), l.radiance[0]);
     if (l.power > 0) line("  \"float power\" {}", l.power);
   }
 

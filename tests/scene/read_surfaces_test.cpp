@@ -146,6 +146,17 @@ TEST(ReadLights, AreaLightsHoldForTheShapesOfTheirBlock) {
   EXPECT_FALSE(s.shapes[3].light);
 }
 
+TEST(ReadLights, AreaLightsHaveImages) {
+  const SceneDescription s = world_of(
+      "AreaLightSource \"diffuse\" \"string filename\" \"lamp.png\" \"float scale\" 3\n"
+      "Shape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 1] \"string emissionfilename\" \"lamp.png\"");
+  ASSERT_EQ(s.shapes.size(), 1u);
+  ASSERT_TRUE(s.shapes[0].light);
+  EXPECT_EQ(s.shapes[0].light->filename, "lamp.png");
+  EXPECT_EQ(s.shapes[0].light->radiance, constant_spectrum(3));
+  EXPECT_EQ(s.shapes[0].light->location.line, 2);
+}
+
 TEST(ReadLights, ImagesAreTurnedAndScaled) {
   const SceneDescription s = world_of(
       "Rotate 90 1 0 0\nScale 2 2 -2\nLightSource \"infinite\" \"string filename\" \"sky.exr\" \"float scale\" 3 "

@@ -99,6 +99,7 @@ void expect_equal(const ShapeDescription& a, const ShapeDescription& b) {
     EXPECT_EQ(a.light->radiance, b.light->radiance);
     EXPECT_EQ(a.light->two_sided, b.light->two_sided);
     EXPECT_EQ(a.light->power, b.light->power);
+    EXPECT_EQ(a.light->filename, b.light->filename);
   }
   ASSERT_EQ(a.kind.index(), b.kind.index());
   if (const auto* disk = std::get_if<DiskShape>(&a.kind)) {
