@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <tuple>
+
+#include "base/gzip.h"
+#include "scene/read_scene.h"
 
 namespace brume {
 
@@ -79,7 +83,43 @@ void add_source_line(Diagnostic& diagnostic, const Place& place) {
   diagnostic.message += fmt::format("\n  ...{}{}{}\n  {}^", before, after, tail, std::string(columns + 3, ' '));
 }
 
+// The offset of a line and a column, or npos where the text has no such place.
+std::size_t offset_of(std::string_view text, const Location& at) {
+  std::size_t offset = 0;
+  for (int line = 1; line < at.line; ++line) {
+    offset = text.find('\n', offset);
+    if (offset == std::string_view::npos) return offset;
+    ++offset;
+  }
+  int column = 1;
+  while (offset < text.size() && column < at.column)
+    if (++offset < text.size() && !is_continuation(text[offset])) ++column;
+  return offset < text.size() ? offset : std::string_view::npos;
+}
+
+// "" where it cannot be read.
+std::string text_of(const std::string& file) {
+  try {
+    return read_file_unpacked(file);
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
 }  // namespace
+
+void add_source_lines(std::vector<Diagnostic>& diagnostics) {
+  std::map<std::string, std::string> texts;
+  for (Diagnostic& d : diagnostics) {
+    const Location at = d.location;
+    if (at.line == 0) continue;
+    const auto [entry, is_new] = texts.try_emplace(at.file);
+    if (is_new) entry->second = text_of(at.file);
+    const Source source{at.file, entry->second};
+    const std::size_t offset = offset_of(source.text, at);
+    if (offset != std::string_view::npos) add_source_line(d, {&source, offset, at.line, at.column});
+  }
+}
 
 Location location(const Place& place) {
   return {place.source ? place.source->name : std::string(), place.line, place.column};

@@ -10,6 +10,7 @@
 #include "image/film.h"
 #include "lanes/instruction_set.h"
 #include "render/backend.h"
+#include "scene/read_scene.h"
 #include "session/contents.h"
 #include "session/errors.h"
 #include "session/instruction_set_choice.h"
@@ -41,9 +42,16 @@ CompiledScene compile_scene(const SceneDescription& description, int threads, Wa
   if (name != "classic" && name != "reference" && name != "volpath")
     warnings.add(fmt::format("warning: there is no integrator \"{}\" here; rendering with \"volpath\"", name));
   std::vector<Diagnostic> found;
-  CompiledScene compiled = compile(description, threads, found);
-  for (const Diagnostic& warning : found) warnings.add(to_string(warning));
-  return compiled;
+  try {
+    CompiledScene compiled = compile(description, threads, found);
+    add_source_lines(found);
+    for (const Diagnostic& warning : found) warnings.add(to_string(warning));
+    return compiled;
+  } catch (const InputError& e) {
+    std::vector<Diagnostic> errors = e.diagnostics();
+    add_source_lines(errors);
+    throw InputError(std::move(errors));
+  }
 }
 
 constexpr double partial_picture_interval = 3;  // seconds

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "base/file.h"
+#include "image/temporary_folder.h"
+#include "scene/read_scene.h"
+
 namespace brume {
 namespace {
 
@@ -72,6 +76,25 @@ TEST(Messages, NamesCannotCommandATerminal) {
   EXPECT_EQ(printable("caf\xc3\xa9"), "caf\xc3\xa9");
   EXPECT_EQ(printable("\xff\xc3"), "??");
   EXPECT_LT(printable(std::string(1000, 'x')).size(), 70u);
+}
+
+// What is wrong with a scene after it was read: the line is fetched from its file, which may be there no more, or be
+// another one by now.
+TEST(Messages, LinesAreFoundInTheirFiles) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("a.pbrt");
+  write_file_atomically(file, "one\n\xc3\xa9\xc3\xa9 X\nthree");
+  const auto error_at = [&](const std::string& name, int line, int column) {
+    std::vector<Diagnostic> all{{Severity::error, {name, line, column}, "here", {}}};
+    add_source_lines(all);
+    return to_string(all[0]).substr(name.size());
+  };
+  EXPECT_EQ(error_at(file, 2, 4), ":2:4: error: here\n  \xc3\xa9\xc3\xa9 X\n     ^");
+  EXPECT_EQ(error_at(file, 3, 1), ":3:1: error: here\n  three\n  ^");
+  EXPECT_EQ(error_at(file, 4, 1), ":4:1: error: here");
+  EXPECT_EQ(error_at(file, 3, 100), ":3:100: error: here");
+  EXPECT_EQ(error_at(file, 0, 0), ": error: here");
+  EXPECT_EQ(error_at("standard input", 1, 1), ":1:1: error: here");
 }
 
 }  // namespace

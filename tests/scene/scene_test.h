@@ -10,7 +10,7 @@
 
 namespace brume {
 
-inline std::string test_folder(const std::string& name) { return std::string(SCENE_TESTS) + "/" + name; }
+inline std::string test_folder(const std::string& name) { return std::string(SCENE_TESTS "/") + name; }
 
 // A scene from text; errors fail the test.
 inline SceneDescription scene_of(const std::string& text, std::vector<Diagnostic>* warnings = nullptr) {
