@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# scripts/gallery.sh [NAME]: renders the pictures of README.md and docs/ anew, with the release build, in some 20
+# scripts/gallery.sh [NAME]: renders the pictures of README.md and docs/ anew, with the release build, in some ten
 # minutes; with a NAME only those whose names begin with it.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -24,6 +24,7 @@ picture cloud_single --example --resolution 480x300 --spp 8 --integrator classic
 picture cloud_multiple --example --resolution 480x300 --spp 512
 picture surfaces scenes/surfaces.pbrt --resolution 480x300 --spp 256
 picture lens scenes/lens.pbrt
+picture rough_glass scenes/rough_glass.pbrt
 picture two_balls scenes/two_balls.pbrt
 
 variant steps_coarse steps 'Integrator "classic" "float step" 0.2'
@@ -53,11 +54,11 @@ picture volume_shadow scenes/volume_shadow.pbrt
 variant volume_shadow_binary volume_shadow 'Attribute "medium" "float scale" 100000'
 picture dyes scenes/dyes.pbrt
 
-picture lamp_in_fog scenes/lamp_in_fog.pbrt --resolution 480x300 --spp 256
+picture lamp_in_fog scenes/lamp_in_fog.pbrt --resolution 480x300 --spp 256 --exposure 0.7
 picture smoke_by_a_lamp scenes/smoke_by_a_lamp.pbrt --spp 512
 picture fire scenes/fire.pbrt --spp 512
 picture fog scenes/fog.pbrt --resolution 480x240 --spp 512
-picture liquid scenes/liquid.pbrt --resolution 400x200 --spp 192
+picture liquid scenes/liquid.pbrt --resolution 400x200 --spp 1024
 picture two_clouds scenes/two_clouds.pbrt --resolution 480x300 --spp 512
 
 if [[ founding == "$only"* ]]; then
