@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,7 @@
 
 namespace brume {
 
-inline std::string test_folder(const std::string& name) { return std::string(SCENE_TESTS "/") + name; }
+inline std::string test_folder(const std::string& name) { return (std::filesystem::path(SCENE_TESTS) / name).string(); }
 
 // A scene from text; errors fail the test.
 inline SceneDescription scene_of(const std::string& text, std::vector<Diagnostic>* warnings = nullptr) {
