@@ -136,7 +136,8 @@ void Compiler::add_shape(const ShapeDescription& shape) {
     return;
   }
   CompiledShape compiled;
-  if (!std::holds_alternative<InterfaceMaterial>(shape.material)) compiled.material = material_index(shape.material);
+  if (!std::holds_alternative<InterfaceMaterial>(shape.material))
+    compiled.material = material_index(shape.material, shape.relief);
   if (is_cut_out(shape)) {
     check_cut_out(shape);
     compiled.alpha = operand(shape.alpha);
@@ -150,8 +151,9 @@ void Compiler::add_shape(const ShapeDescription& shape) {
     part.material = compiled.material;
     part.boundary = compiled.boundary;
     part.alpha = compiled.alpha;
-    part.is_textured = part.material >= 0 &&
-                       (is_textured(compiled_.materials[static_cast<std::size_t>(part.material)]) || part.alpha >= 0);
+    if (part.material < 0) continue;
+    const CompiledMaterial& material = compiled_.materials[static_cast<std::size_t>(part.material)];
+    part.is_textured = is_textured(material) || has_relief(material) || part.alpha >= 0;
   }
   if (shape.light && compiled.material >= 0) add_area_lights(*shape.light, parts);
   compiled_.shapes.insert(compiled_.shapes.end(), parts.begin(), parts.end());
@@ -311,8 +313,10 @@ CompiledMaterial Compiler::compile_material(const MaterialDescription& material)
   return c;
 }
 
-std::int32_t Compiler::material_index(const MaterialDescription& material) {
-  const CompiledMaterial c = compile_material(material);
+std::int32_t Compiler::material_index(const MaterialDescription& material, const Relief& relief) {
+  CompiledMaterial c = compile_material(material);
+  if (relief.displacement >= 0) c.displacement = textures_.at(static_cast<std::size_t>(relief.displacement));
+  if (!relief.normal_map.empty()) c.normal_map = normal_map(relief);
   const auto same = std::find(compiled_.materials.begin(), compiled_.materials.end(), c);
   if (same != compiled_.materials.end()) return static_cast<std::int32_t>(same - compiled_.materials.begin());
   compiled_.materials.push_back(c);

@@ -85,6 +85,19 @@ void Compiler::add_textures() {
   }
 }
 
+std::int32_t Compiler::normal_map(const Relief& relief) {
+  const auto [known, is_new] = normal_maps_.try_emplace(relief.normal_map, -1);
+  if (!is_new) return known->second;
+  ImageTexture picture;
+  picture.filename = relief.normal_map;
+  picture.gamma = 1;
+  CompiledTexture t;
+  t.kind = CompiledTexture::Kind::image;
+  t.image = image_index(picture, false, "the material's normal map", relief.location);
+  known->second = add_texture(t);
+  return known->second;
+}
+
 std::int32_t Compiler::image_index(const ImageTexture& from, bool is_float, const std::string& owner,
                                    const Location& location) {
   const auto [known, is_new] = images_.try_emplace({from.filename, from.gamma, is_float}, -1);

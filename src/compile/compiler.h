@@ -88,7 +88,7 @@ class Compiler {
   std::vector<CompiledShape> add_patches(const ShapeDescription& shape, const BilinearMeshShape& patches);
   CompiledShape add_saddle(const ShapeDescription& shape, const Transform& object_from_saddle,
                            const std::array<Vector3, 4>& normals, const std::array<std::array<double, 2>, 4>& uv);
-  std::int32_t material_index(const MaterialDescription& material);
+  std::int32_t material_index(const MaterialDescription& material, const Relief& relief);
   // A medium that fills the inside of the shape with these parts beside what is there, and does nothing but absorb.
   void add_absorption(std::vector<CompiledShape> parts, const Spectrum& sigma_a);
   CompiledMaterial compile_material(const MaterialDescription& material) const;
@@ -97,6 +97,8 @@ class Compiler {
   std::int32_t add_texture(const CompiledTexture& texture);
   // The compiled texture that a texture's operand is.
   std::int32_t operand(const Textured& value);
+  // Of normals, which are not light: its values are linear.
+  std::int32_t normal_map(const Relief& relief);
   // The index of a picture of `owner`, which is read on first use; below 0 after an error.
   std::int32_t image_index(const ImageTexture& from, bool is_float, const std::string& owner, const Location& location);
 
@@ -120,6 +122,7 @@ class Compiler {
   std::vector<std::int32_t> textures_;  // in the compiled scene, by the index of their description
   std::map<std::tuple<std::string, double, bool>, std::int32_t> images_;  // by file, gamma and whether of numbers
   std::map<std::string, LightImage> light_images_;                        // by file
+  std::map<std::string, std::int32_t> normal_maps_;                       // textures, by file
   std::map<std::string, LoadedGrid> grids_;                               // by file, grid, storage and interpolation
 };
 

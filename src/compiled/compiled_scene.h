@@ -117,6 +117,7 @@ struct CompiledMaterial {
   Spectrum diffuse, specular, mirror, refraction;
   Spectrum ambient;                                         // colour under the scene's ambient light
   std::int32_t diffuse_texture = -1, ambient_texture = -1;  // at or above 0: in place of diffuse and ambient
+  std::int32_t displacement = -1, normal_map = -1;          // textures (see intersect/relief.h); below 0: none
   float shininess = 1, metallic = 0;
   float highlight_scale = 0;       // c
   Spectrum eta, k;                 // conductor: complex index of refraction
@@ -128,6 +129,7 @@ struct CompiledMaterial {
   bool operator==(const CompiledMaterial&) const = default;
 };
 inline bool is_textured(const CompiledMaterial& m) { return m.diffuse_texture >= 0 || m.ambient_texture >= 0; }
+inline bool has_relief(const CompiledMaterial& m) { return m.displacement >= 0 || m.normal_map >= 0; }
 
 // The two sides of a shape that bounds media: crossing it inwards removes `outside` and adds `inside`.
 struct CompiledBoundary {
@@ -175,7 +177,7 @@ struct CompiledShape {
   std::int32_t boundary = -1;  // below 0: the same media on both sides
   std::int32_t light = -1;     // the area light that it is; below 0: none
   std::int32_t alpha = -1;     // the texture of the share of rays that meet it; below 0: all do
-  bool is_textured = false;    // its material, its alpha or its light depends on where a hit is
+  bool is_textured = false;    // its material, its relief, its alpha or its light depends on where a hit is
 };
 
 // A part of the scene's shapes that is placed as a whole.

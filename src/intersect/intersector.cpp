@@ -9,6 +9,7 @@
 
 #include "intersect/attached_shape.h"
 #include "intersect/cut_outs.h"
+#include "intersect/relief.h"
 #include "intersect/surface_uv.h"
 
 namespace brume {
@@ -57,6 +58,19 @@ void drop_doubles(const CompiledScene& scene, std::vector<Crossing>& found, std:
 vec3 to_float(Vector3 v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 Vector3 to_double(vec3 v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
 vec3 to_vec3(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
+
+std::array<double, 2> difference(std::array<float, 2> a, std::array<float, 2> b) {
+  return {static_cast<double>(a[0]) - static_cast<double>(b[0]), static_cast<double>(a[1]) - static_cast<double>(b[1])};
+}
+
+// From those by the place in the saddle's unit square, for a patch with (u, v) of its own.
+Tangents patch_tangents(const Tangents& by_place, const std::array<std::array<float, 2>, 4>& uv, Vector3 p) {
+  const auto between = [](double t, std::array<double, 2> a, std::array<double, 2> b) {
+    return std::array{(1 - t) * a[0] + t * b[0], (1 - t) * a[1] + t * b[1]};
+  };
+  return tangents_from(by_place, between(p.y, difference(uv[1], uv[0]), difference(uv[3], uv[2])),
+                       between(p.x, difference(uv[2], uv[0]), difference(uv[3], uv[1])));
+}
 
 }  // namespace
 
@@ -178,27 +192,47 @@ struct Intersector::Embree {
     const CompiledObject& object = instance ? scene.objects[instance->object] : scene.world;
     hit.shape = static_cast<int>(object.first_shape + rtc.geomID);
     const CompiledShape& shape = scene.shapes[object.first_shape + rtc.geomID];
+    const CompiledMaterial* relief = relief_of(shape);
     vec3 normal, smooth(0, 0, 0);
+    Tangents tangents;
     if (shape.kind == CompiledShape::Kind::mesh) {
       const CompiledMesh& mesh = scene.meshes[shape.index];
       normal = vec3(rtc.Ng_x, rtc.Ng_y, rtc.Ng_z);
       if (mesh.flip_normal) normal = -normal;
       if (mesh.has_normals) smooth = triangle_normal(rtc, mesh);
       if (shape.is_textured) hit.uv = triangle_uv(scene, mesh, rtc.primID, rtc.u, rtc.v);
+      if (relief) tangents = triangle_tangents(rtc, mesh);
     } else {
       const CompiledQuadric& quadric = scene.quadrics[shape.index];
       Vector3 p = to_double(hit.position);
       if (instance) p = instance->object_from_world.point(p);
       p = quadric.object_from_world.point(p);
       normal = to_float(quadric_normal(quadric, p));
-      if (quadric.patch >= 0)
-        smooth = to_vec3(at_patch(scene.patches[static_cast<std::size_t>(quadric.patch)].normals, p));
+      const CompiledPatch* patch =
+          quadric.patch < 0 ? nullptr : &scene.patches[static_cast<std::size_t>(quadric.patch)];
+      if (patch) smooth = to_vec3(at_patch(patch->normals, p));
       if (shape.is_textured) hit.uv = surface_uv(scene, quadric, p);
+      if (relief) tangents = quadric_tangents(quadric, p);
+      if (relief && patch) tangents = patch_tangents(tangents, patch->uv, p);
     }
     if (instance) {
       normal = to_world(*instance, normal);
       smooth = to_world(*instance, smooth);
+      tangents = {instance->world_from_object.vector(tangents.u), instance->world_from_object.vector(tangents.v)};
     }
+    set_normals(normal, smooth, hit);
+    if (relief) hit.shading_normal = relief_normal(scene, *relief, hit, tangents);
+  }
+
+  // The shape's material, where that has relief.
+  const CompiledMaterial* relief_of(const CompiledShape& shape) const {
+    if (!shape.is_textured) return nullptr;
+    const CompiledMaterial& material = scene.materials[static_cast<std::size_t>(shape.material)];
+    return has_relief(material) ? &material : nullptr;
+  }
+
+  // From normals of any length; `smooth` is 0 where there is none.
+  static void set_normals(vec3 normal, vec3 smooth, SurfaceHit& hit) {
     normal = normalize(normal);
     hit.normal = hit.shading_normal = normal;
     const float squared = dot(smooth, smooth);
@@ -219,6 +253,22 @@ struct Intersector::Embree {
     };
     const auto& [a, b, c] = scene.triangles[mesh.first_triangle + rtc.primID];
     return (1 - rtc.u - rtc.v) * at(a) + rtc.u * at(b) + rtc.v * at(c);
+  }
+  Tangents triangle_tangents(const RTCHit& rtc, const CompiledMesh& mesh) const {
+    const auto at = [&, first = mesh.first_vertex](std::uint32_t corner) {
+      return to_double(to_vec3(scene.positions[first + corner]));
+    };
+    const auto& [a, b, c] = scene.triangles[mesh.first_triangle + rtc.primID];
+    const std::array<std::array<float, 2>, 3> uv = corner_uvs(rtc, mesh);
+    return tangents_from({at(b) - at(a), at(c) - at(a)}, difference(uv[1], uv[0]), difference(uv[2], uv[0]));
+  }
+  std::array<std::array<float, 2>, 3> corner_uvs(const RTCHit& rtc, const CompiledMesh& mesh) const {
+    if (mesh.first_uv < 0) return {{{0, 0}, {1, 0}, {1, 1}}};
+    const auto at = [&, first = static_cast<std::size_t>(mesh.first_uv)](std::uint32_t corner) {
+      return scene.uvs[first + corner];
+    };
+    const auto& [a, b, c] = scene.triangles[mesh.first_triangle + rtc.primID];
+    return {at(a), at(b), at(c)};
   }
 };
 

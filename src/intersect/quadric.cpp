@@ -122,6 +122,22 @@ std::array<float, 2> quadric_uv(const CompiledQuadric& quadric, Vector3 p) {
   return {static_cast<float>(u), static_cast<float>(v)};
 }
 
+Tangents quadric_tangents(const CompiledQuadric& quadric, Vector3 p) {
+  Vector3 u = quadric.phi_max * Vector3{-p.y, p.x, 0}, v{0, 0, 1};
+  if (quadric.kind == Kind::saddle) {
+    u = {1, 0, p.y};
+    v = {0, 1, p.x};
+  } else if (quadric.kind != Kind::cylinder) {
+    const double radius = std::hypot(p.x, p.y);
+    const Vector3 outwards = radius > 0 ? 1 / radius * across_z(p) : Vector3{};
+    if (quadric.kind == Kind::disk)
+      v = (quadric.inner_radius - 1) * outwards;
+    else
+      v = (std::acos(quadric.z_max) - std::acos(quadric.z_min)) * (p.z * outwards - Vector3{0, 0, radius});
+  }
+  return {quadric.world_from_object.vector(u), quadric.world_from_object.vector(v)};
+}
+
 double saddle_area(const CompiledQuadric& quadric, Vector3 p) {
   return std::abs(quadric.world_from_object.determinant()) *
          length(transposed(quadric.object_from_world, object_normal(quadric, p)));

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "compiled/compiled_scene.h"
+#include "intersect/tangents.h"
 
 namespace brume {
 
@@ -26,6 +27,9 @@ Vector3 quadric_normal(const CompiledQuadric& quadric, Vector3 p);
 // pbrt's surface parameters. Spheres and cylinders: u around, from the x axis, v upwards along z (of a sphere in equal
 // angles). Disks: u around, v inwards. Saddles: x and y.
 std::array<float, 2> quadric_uv(const CompiledQuadric& quadric, Vector3 p);
+
+// How the place in the world changes with these parameters.
+Tangents quadric_tangents(const CompiledQuadric& quadric, Vector3 p);
 
 // Saddles: the area in the world of a unit of area of the unit square.
 double saddle_area(const CompiledQuadric& quadric, Vector3 p);

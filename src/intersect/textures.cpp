@@ -11,10 +11,8 @@ struct TexturePoint {
   double s = 0, t = 0;
 };
 
-TexturePoint mapped(const CompiledMapping& m, const SurfaceHit& hit) {
-  const auto to_double = [](float v) { return static_cast<double>(v); };
-  const double x = to_double(m.planar ? hit.position.x : hit.uv[0]),
-               y = to_double(m.planar ? hit.position.y : hit.uv[1]), z = m.planar ? to_double(hit.position.z) : 0;
+TexturePoint mapped(const CompiledMapping& m, const SurfacePlace& place) {
+  const auto [x, y, z] = m.planar ? place.position : Vector3{place.uv[0], place.uv[1], 0};
   const auto along = [&](const std::array<double, 4>& row) { return row[0] * x + row[1] * y + row[2] * z + row[3]; };
   const TexturePoint p{along(m.rows[0]), along(m.rows[1])};
   return std::isfinite(p.s) && std::isfinite(p.t) ? p : TexturePoint{};
@@ -55,18 +53,24 @@ Spectrum look_up(const CompiledTexture& texture, const CompiledImage& image, Tex
   return (1 - up) * ((1 - right) * at(0, 0) + right * at(1, 0)) + up * ((1 - right) * at(0, 1) + right * at(1, 1));
 }
 
-Spectrum image_value(const CompiledScene& scene, const CompiledTexture& texture, const SurfaceHit& hit) {
+Spectrum image_value(const CompiledScene& scene, const CompiledTexture& texture, const SurfacePlace& place) {
   Spectrum v = texture.scale *
-               look_up(texture, scene.images[static_cast<std::size_t>(texture.image)], mapped(texture.mapping, hit));
+               look_up(texture, scene.images[static_cast<std::size_t>(texture.image)], mapped(texture.mapping, place));
   for (int c = 0; c < channel_count; ++c) v[c] = std::max(0.0f, texture.invert ? 1 - v[c] : v[c]);
   return v;
 }
 
 }  // namespace
 
-Spectrum texture_value(const CompiledScene& scene, std::int32_t texture, const SurfaceHit& hit) {
+SurfacePlace place_of(const SurfaceHit& hit) {
+  const auto to_double = [](float v) { return static_cast<double>(v); };
+  return {{to_double(hit.uv[0]), to_double(hit.uv[1])},
+          {to_double(hit.position.x), to_double(hit.position.y), to_double(hit.position.z)}};
+}
+
+Spectrum texture_value(const CompiledScene& scene, std::int32_t texture, const SurfacePlace& place) {
   const CompiledTexture& t = scene.textures[static_cast<std::size_t>(texture)];
-  const auto operand = [&](std::size_t i) { return texture_value(scene, t.operands[i], hit); };
+  const auto operand = [&](std::size_t i) { return texture_value(scene, t.operands[i], place); };
   switch (t.kind) {
     case CompiledTexture::Kind::constant:
       return t.value;
@@ -77,13 +81,13 @@ Spectrum texture_value(const CompiledScene& scene, std::int32_t texture, const S
       return (1 - amount) * operand(0) + amount * operand(1);
     }
     case CompiledTexture::Kind::checkerboard: {
-      const TexturePoint p = mapped(t.mapping, hit);
+      const TexturePoint p = mapped(t.mapping, place);
       return operand(is_odd(std::floor(p.s)) != is_odd(std::floor(p.t)) ? 1 : 0);
     }
     case CompiledTexture::Kind::image:
       break;
   }
-  return image_value(scene, t, hit);
+  return image_value(scene, t, place);
 }
 
 Spectrum texture_reflectance(const CompiledScene& scene, std::int32_t texture, const SurfaceHit& hit) {

@@ -250,6 +250,14 @@ struct CoatedDiffuseMaterial {
 using MaterialDescription = std::variant<DiffuseMaterial, BlinnPhongMaterial, InterfaceMaterial, ConductorMaterial,
                                          DielectricMaterial, CoatedDiffuseMaterial>;
 
+// Bumps that a material only seems to have: they turn shading normals, and leave the shape as it is. At most one of the
+// two is given.
+struct Relief {
+  int displacement = -1;   // a texture of numbers, in SceneDescription::textures: how far points seem to be moved
+  std::string normal_map;  // an image, resolved; "": none
+  Location location{};     // of the material
+};
+
 // About the origin, cut at z_min and z_max.
 struct SphereShape {
   double radius = 1;
@@ -319,6 +327,7 @@ struct ShapeDescription {
   // By ReverseOrientation alone; a transform that mirrors flips the normal too, as pbrt's does.
   bool reverse_orientation = false;
   MaterialDescription material;
+  Relief relief;
   Textured alpha = constant_spectrum(1);  // the share of rays that meet it; the others pass
   std::string inside, outside;            // media; "" is none
   std::optional<AreaLight> light{};

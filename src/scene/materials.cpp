@@ -168,7 +168,7 @@ std::string doubt_about(const BlinnPhongMaterial& m) {
 
 }  // namespace
 
-MaterialDescription Reader::read_material(const std::string& given, const Place& type_place, ParameterList& p) {
+MaterialDescription Reader::read_surface(const std::string& given, const Place& type_place, ParameterList& p) {
   std::string type = given;
   if (type.empty() || type == "none") {
     messages_.old_spelling(directive_.place, fmt::format("the material \"{}\" is now called \"interface\"", type));
@@ -207,7 +207,36 @@ MaterialDescription Reader::read_material(const std::string& given, const Place&
     if (const std::string doubt = doubt_about(*phong); !doubt.empty())
       p.warning(p.place(), fmt::format("{} {}", p.owner(), doubt));
   }
-  p.refuse({"texture displacement", "string normalmap", "float displacement"}, "is not supported yet");
+  return material;
+}
+
+Relief Reader::read_relief(ParameterList& p) {
+  Relief relief;
+  relief.location = location(directive_.place);
+  Textured displacement;
+  use_texture(p, "displacement", true, displacement);
+  p.ignore({"float displacement"});  // moves all points alike
+  relief.displacement = displacement.texture;
+  if (!p.has(ParameterType::string, "normalmap")) return relief;
+  const std::string name = p.string("normalmap", "");
+  if (name.empty())
+    p.value_error(*p.find(ParameterType::string, "normalmap"), 0, "must name an image");
+  else
+    relief.normal_map = resolve(name);
+  if (relief.displacement >= 0) {
+    p.warning(p.place_of(ParameterType::texture, "displacement"),
+              fmt::format("\"texture displacement\" of {} has no effect beside its normal map", p.owner()));
+    relief.displacement = -1;
+  }
+  return relief;
+}
+
+Material Reader::read_material(const std::string& given, const Place& type_place, ParameterList& p) {
+  Material material{read_surface(given, type_place, p), {}};
+  if (std::holds_alternative<InterfaceMaterial>(material.surface))
+    p.warn({"texture displacement", "float displacement", "string normalmap"}, "has no effect: there is no surface");
+  else
+    material.relief = read_relief(p);
   p.finish();
   return material;
 }
@@ -225,8 +254,7 @@ void Reader::make_named_material() {
   ParameterList p = parameters(fmt::format("MakeNamedMaterial \"{}\"", printable(name)), "material");
   p.require(ParameterType::string, "type");
   if (!p.has(ParameterType::string, "type")) throw Abandon{};
-  const MaterialDescription material =
-      read_material(p.string("type", ""), p.place_of(ParameterType::string, "type"), p);
+  const Material material = read_material(p.string("type", ""), p.place_of(ParameterType::string, "type"), p);
   if (!named_materials_.try_emplace(name, material).second)
     messages_.error(place, fmt::format("there is a material \"{}\" already", printable(name)));
 }

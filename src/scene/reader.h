@@ -14,6 +14,12 @@
 
 namespace brume {
 
+// What a material says of shapes.
+struct Material {
+  MaterialDescription surface;
+  Relief relief;
+};
+
 // What AttributeBegin saves and AttributeEnd brings back.
 struct GraphicsState {
   Transform ctm;  // the current transformation matrix: world from object, before WorldBegin camera from world
@@ -21,7 +27,7 @@ struct GraphicsState {
   bool reverse_orientation = false;
   ColourSpace colour_space = ColourSpace::srgb;  // of rgb values
   std::string inside, outside;
-  MaterialDescription material;
+  Material material;
   std::optional<AreaLight> area_light;
   // Default parameters by the target of the Attribute directive; shared, since they may be large.
   std::map<std::string, std::shared_ptr<const std::vector<Parameter>>> defaults;
@@ -126,7 +132,9 @@ class Reader {
   Textured textured(ParameterList& p, std::string_view name, bool is_float, const Textured& fallback);
   // Takes the texture that the parameter names, where it names one, in place of the value.
   void use_texture(ParameterList& p, std::string_view name, bool is_float, Textured& value);
-  MaterialDescription read_material(const std::string& given, const Place& type_place, ParameterList& p);
+  Material read_material(const std::string& given, const Place& type_place, ParameterList& p);
+  MaterialDescription read_surface(const std::string& given, const Place& type_place, ParameterList& p);
+  Relief read_relief(ParameterList& p);
 
   // Arguments of directives; what is not there leaves the directive with an error.
   std::string string_argument(std::string_view what);
@@ -180,7 +188,7 @@ class Reader {
     std::size_t depth;  // of open files, the imported one included
   };
   std::vector<Imported> imports_;
-  std::map<std::string, MaterialDescription> named_materials_;
+  std::map<std::string, Material> named_materials_;
   bool in_world_ = false;
   std::optional<std::uint32_t> sampler_seed_, global_seed_;
   Token directive_;     // the one being read

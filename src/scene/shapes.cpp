@@ -212,7 +212,8 @@ void Reader::shape() {
   }
   shape.world_from_object = usable_ctm("the shape");
   shape.reverse_orientation = state_.reverse_orientation;
-  shape.material = state_.material;
+  shape.material = state_.material.surface;
+  shape.relief = state_.material.relief;
   shape.outside = state_.outside;
   if (state_.area_light && in_object_) {
     messages_.warning(directive_.place, "AreaLightSource has no effect on the shapes of objects");

@@ -353,6 +353,7 @@ class Writer {
       if (!is_identity(s.world_from_object)) matrix(s.world_from_object);
       if (s.reverse_orientation) line("ReverseOrientation");
       std::visit([&](const auto& m) { material(m); }, s.material);
+      relief(s.relief);
       if (s.light) area_light(*s.light);
     }
     std::visit([&](const auto& kind) { shape_kind(kind); }, s.kind);
@@ -393,6 +394,12 @@ class Writer {
   }
   void roughness(float alpha) {
     if (alpha > 0) line("  \"float roughness\" {} \"bool remaproughness\" false", alpha);
+  }
+
+  void relief(const Relief& r) {
+    if (r.displacement >= 0)
+      line("  \"texture displacement\" {}", quoted(scene_.textures[static_cast<std::size_t>(r.displacement)].name));
+    if (!r.normal_map.empty()) line("  \"string normalmap\" {}", quoted(r.normal_map));
   }
 
   void area_light(const AreaLight& l) {

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 
 #include "render/scenes.h"
 #include "scene/read_scene.h"
@@ -44,9 +45,12 @@ class Pictures : public ::testing::TestWithParam<const char*> {
  protected:
   static SceneDescription scene() {
     std::vector<Diagnostic> warnings;
-    return read_scene(std::string(TEST_DATA) + "/pictures/" + GetParam() + ".pbrt", warnings);
+    return read_scene(path(".pbrt"), warnings);
   }
-  static std::string stored_path() { return std::string(TEST_DATA) + "/pictures/" + GetParam() + ".exr"; }
+  static std::string stored_path() { return path(".exr"); }
+  static std::string path(const std::string& suffix) {
+    return (std::filesystem::path(TEST_DATA) / "pictures" / (GetParam() + suffix)).string();
+  }
 };
 
 TEST_P(Pictures, LookAsTheyDid) {

@@ -64,6 +64,8 @@ void expect_equal(const ShapeDescription& a, const ShapeDescription& b) {
   EXPECT_EQ(a.inside, b.inside);
   EXPECT_EQ(a.outside, b.outside);
   EXPECT_EQ(a.alpha, b.alpha);
+  EXPECT_EQ(a.relief.displacement, b.relief.displacement);
+  EXPECT_EQ(a.relief.normal_map, b.relief.normal_map);
   ASSERT_EQ(a.material.index(), b.material.index());
   if (const auto* diffuse = std::get_if<DiffuseMaterial>(&a.material)) {
     EXPECT_EQ(diffuse->reflectance, std::get<DiffuseMaterial>(b.material).reflectance);
