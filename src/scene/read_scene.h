@@ -25,7 +25,8 @@ SceneDescription read_scene_files(const std::vector<std::string>& paths, std::ve
 SceneDescription read_scene_text(std::string_view text, const std::string& name, const std::string& folder,
                                  std::vector<Diagnostic>& warnings, bool strict = false);
 
-// Gives diagnostics about a scene that was read before the lines that they are about, where its files can be read again.
+// Gives diagnostics about a scene that was read before the lines that they are about, where its files can be read
+// again.
 void add_source_lines(std::vector<Diagnostic>& diagnostics);
 
 // The scene as text that read_scene takes. Reading it gives an equal scene, but for the camera's matrix: the language
