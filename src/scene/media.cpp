@@ -104,10 +104,7 @@ void read_phase(ParameterList& p, MediumDescription& medium) {
 
 void read_grid_settings(ParameterList& p, MediumDescription& medium) {
   medium.linear_interpolation = p.choice("interpolation", {"nearest", "linear"}, 1) == 1;
-  const std::int64_t bits = p.integer("storage", 16, 8, 32);
-  if (bits != 8 && bits != 16 && bits != 32)
-    p.value_error(*p.find(ParameterType::integer, "storage"), 0, fmt::format("must be 8, 16 or 32, found {}", bits));
-  medium.storage_bits = static_cast<int>(bits);
+  medium.storage_bits = 8 << p.choice("storage", {"8-bit", "16-bit", "float"}, 1);
 }
 
 // The box from p0 to p1, in whichever order they are.

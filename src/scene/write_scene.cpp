@@ -13,6 +13,7 @@ namespace brume {
 namespace {
 
 constexpr std::string_view traversal_names[] = {"march", "dda"};
+constexpr std::string_view storage_names[] = {"8-bit", "16-bit", "float"};
 constexpr std::string_view placement_names[] = {"start", "random", "middle", "middle-random"};
 
 // In the order of TextureDescription::kind and of ImageTexture::Wrap.
@@ -181,8 +182,8 @@ class Writer {
     for (std::size_t i = 0; i < m.phase_parameters.size(); ++i)
       line("  \"float {}\" {}", phase.parameters[i].name, m.phase_parameters[i]);
     if (!std::holds_alternative<HomogeneousMedium>(m.kind))
-      line("  \"string interpolation\" \"{}\" \"integer storage\" {}", m.linear_interpolation ? "linear" : "nearest",
-           m.storage_bits);
+      line("  \"string interpolation\" \"{}\" \"string storage\" \"{}\"", m.linear_interpolation ? "linear" : "nearest",
+           storage_names[static_cast<std::size_t>(m.storage_bits / 16)]);
     if (moved) end_block();
   }
 
