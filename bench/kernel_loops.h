@@ -14,7 +14,7 @@ constexpr int bench_steps = 64;
 struct BenchGrid {
   const std::uint32_t* table;
   const std::uint32_t* words;
-  std::uint32_t table_x, table_xy, bits;
+  std::uint32_t table_x, table_xy, bits, bordered;
 };
 
 // Origins, then directions: six arrays of `count` floats, one after the other. count is a multiple of 16.

@@ -2,7 +2,7 @@
 // instruction set's, after load_lanes, lane_count and lane_sum. Each takes lane_count() rays at a time, one vector in
 // flight, and returns a sum so that nothing is optimised away.
 
-inline BrickGrid loop_grid(const BenchGrid& g) { return {g.table, g.words, g.table_x, g.table_xy, g.bits}; }
+inline BrickGrid loop_grid(const BenchGrid& g) { return {g.table, g.words, g.table_x, g.table_xy, g.bits, g.bordered}; }
 inline vec3 loop_vec3(const BenchRays& r, int first, int n) {
   return vec3(load_lanes(r.data + first * r.count + n), load_lanes(r.data + (first + 1) * r.count + n),
               load_lanes(r.data + (first + 2) * r.count + n));

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "bench/kernel_loops.h"
-#include "kernel/scalar.h"
 #include "lanes/instruction_set.h"
-#include "volume/brick_grid.h"
+#include "volume/brick_borders.h"
+#include "volume/kernel_view.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "bench/kernels.cpp"
@@ -52,6 +52,7 @@ namespace {
 struct Grid {
   int edge;
   Storage storage;
+  bool bordered;
   auto operator<=>(const Grid&) const = default;  // NOLINT(modernize-use-nullptr): of generated code
 };
 
@@ -64,7 +65,8 @@ const BrickGrid& noise_grid(Grid of) {
   std::vector<float> values(edge * edge * edge);
   for (std::size_t i = 0; i < values.size(); ++i)
     values[i] = kernel::random_uniform(1, 0, static_cast<std::uint32_t>(i), 0);
-  return grids.emplace(of, make_brick_grid({of.edge, of.edge, of.edge}, values, of.storage)).first->second;
+  BrickGrid grid = make_brick_grid({of.edge, of.edge, of.edge}, values, of.storage);
+  return grids.emplace(of, of.bordered ? add_borders(std::move(grid), 1) : std::move(grid)).first->second;
 }
 
 // Rays that begin in the middle half of a grid along each axis and stay in it for half its edge.
@@ -81,9 +83,8 @@ std::vector<float> make_rays(int count, int edge) {
 void time_loop(benchmark::State& state, Loop loop, Grid of, const std::string& set) {
   const bool scalar = set == "build";
   if (!scalar) use_instruction_set(set);
-  const BrickGrid& grid = noise_grid(of);
-  const auto row = static_cast<std::uint32_t>(grid.bricks[0] + 2), layer = row * row;
-  const BenchGrid words{grid.table.data(), grid.words.data(), row, layer, static_cast<std::uint32_t>(grid.storage)};
+  const kernel::BrickGrid grid = kernel_view(noise_grid(of));
+  const BenchGrid words{grid.table, grid.bricks, grid.table_x, grid.table_xy, grid.bits, grid.bordered};
   const bool one_each = loop == Loop::nearest || loop == Loop::linear;
   const int count = of.edge < 64 || !one_each ? 1024 : 1 << 18;
   const std::vector<float> data = make_rays(count, of.edge);
@@ -120,8 +121,9 @@ int main(int argc, char** argv) {
     for (const auto& [size_name, edge] : {pair{"small", 16}, pair{"large", 256}})
       for (const auto& [bits_name, storage] :
            {pair{"8 bits", Storage::u8}, pair{"16 bits", Storage::u16}, pair{"32 bits", Storage::f32}})
-        register_loop(std::string(loop_name) + "/" + size_name + "/" + bits_name, loop, {edge, storage});
-  register_loop("dda step", Loop::dda, {16, Storage::u16});
+        register_loop(std::string(loop_name) + "/" + size_name + "/" + bits_name, loop,
+                      {edge, storage, loop != Loop::nearest});
+  register_loop("dda step", Loop::dda, {16, Storage::u16, false});
   benchmark::RunSpecifiedBenchmarks();
 }
 #endif

@@ -14,7 +14,11 @@ namespace brume {
 // Throws InputError, with all errors found; warnings are appended.
 CompiledScene compile(const SceneDescription& scene, int threads, std::vector<Diagnostic>& warnings);
 
+// Bordered bricks are for marching and traversal, which look up all eight corners of a cell; plain ones for tracking,
+// which looks up one (kernel/lookup.inl).
+enum class BrickLayout { plain, bordered };
+
 // A grid by itself, for linear or nearest interpolation.
-CompiledGrid compile_grid(VolumeGrid grid, bool linear, int threads);
+CompiledGrid compile_grid(VolumeGrid grid, bool linear, BrickLayout layout, int threads);
 
 }  // namespace brume

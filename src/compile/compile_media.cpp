@@ -7,6 +7,7 @@
 #include "compile/compile.h"
 #include "compile/compiler.h"
 #include "kernel/phase_table.h"
+#include "volume/brick_borders.h"
 #include "volume/majorant_cells.h"
 #include "volume/procedural.h"
 #include "volume/read_volume.h"
@@ -46,7 +47,7 @@ constexpr int finest_majorant_edge = 4;  // voxels
 
 }  // namespace
 
-CompiledGrid compile_grid(VolumeGrid grid, bool linear, int threads) {
+CompiledGrid compile_grid(VolumeGrid grid, bool linear, BrickLayout layout, int threads) {
   const Box3 support = support_index(grid, linear);
   CompiledGrid c;
   c.table_x = static_cast<std::uint32_t>(grid.bricks.bricks[0] + 2);
@@ -63,6 +64,8 @@ CompiledGrid compile_grid(VolumeGrid grid, bool linear, int threads) {
   c.majorants = std::move(majorants.cells);
   // Not what the grid was made of: a stored value may be half a step above. Floats from 0 up order as their bits do.
   c.max_density = std::bit_cast<float>(*std::max_element(c.majorants.begin(), c.majorants.end()));
+  if (layout == BrickLayout::bordered) grid.bricks = add_borders(std::move(grid.bricks), threads);
+  c.bordered = grid.bricks.bordered ? 1 : 0;
   c.table = std::move(grid.bricks.table);
   c.words = std::move(grid.bricks.words);
   return c;
@@ -112,7 +115,10 @@ Compiler::LoadedGrid Compiler::loaded_grid(const MediumDescription& medium, cons
   try {
     if (std::optional<VolumeGrid> grid = load()) {
       loaded = {static_cast<int>(compiled_.grids.size()), grid->medium_from_index};
-      compiled_.grids.push_back(compile_grid(std::move(*grid), medium.linear_interpolation, threads_));
+      const bool bordered =
+          compiled_.integrator.kind == CompiledIntegrator::Kind::classic && medium.linear_interpolation;
+      compiled_.grids.push_back(compile_grid(std::move(*grid), medium.linear_interpolation,
+                                             bordered ? BrickLayout::bordered : BrickLayout::plain, threads_));
     }
     grids_.emplace(key, loaded);
   } catch (const InputError& e) {

@@ -24,14 +24,14 @@ constexpr int max_active_media = 16;
 // A brick grid (see kernel/lookup.inl): two arrays of words and how to read them.
 struct CompiledGrid {
   std::vector<std::uint32_t> table, words;
-  std::uint32_t table_x = 0, table_xy = 0, bits = 16;
+  std::uint32_t table_x = 0, table_xy = 0, bits = 16, bordered = 0;
   float max_density = 0;  // bounds every value, rounding included
   // Local bounds (see kernel/majorant.inl).
   std::vector<std::uint32_t> majorants;
   std::uint32_t majorant_row = 0, majorant_layer = 0;
   float majorant_cells_per_voxel = 0;
   std::array<float, 3> bounds_lo{}, bounds_hi{};  // index coordinates; the density is 0 outside
-  kernel::BrickGrid view() const { return {table.data(), words.data(), table_x, table_xy, bits}; }
+  kernel::BrickGrid view() const { return {table.data(), words.data(), table_x, table_xy, bits, bordered}; }
   kernel::MajorantGrid majorant_view() const {
     return {majorants.data(), majorant_row, majorant_layer, majorant_cells_per_voxel};
   }

@@ -6,6 +6,9 @@
 // or the float itself. Offset and scale are floats of 16 bits (the upper halves of theirs), beside the brick's place in
 // the table: one gather of 64 bits fetches all of a brick that a look-up needs to know. An empty brick whose neighbours
 // on the upper sides are empty too has a scale of -0 (0x8000): all that is interpolated from there is 0.
+// Bordered bricks are for those who look up all eight corners of a cell: 9^3 values, the last along each axis being
+// those of the neighbours on the upper sides, so that all corners are in one brick. Five gathers do in place of
+// sixteen, for 42 % more memory.
 
 struct BrickGrid {
   Words table;  // two words for each brick: its first word in `bricks`, and offset (upper half) with scale (lower
@@ -14,6 +17,7 @@ struct BrickGrid {
   uint table_x;   // bricks along x, border included: the table's row
   uint table_xy;  // bricks in a layer, border included
   uint bits;      // 8, 16 or 32 a voxel
+  uint bordered;  // 0 or 1
 };
 
 // The eight values at a dual cell's corners: v011 is the one at (x, y + 1, z + 1).
@@ -40,20 +44,17 @@ KERNEL Brick grid_brick(BrickGrid g, I x, I y, I z) {
   U by = as_uint(y + 8) >> 3;
   U bz = as_uint(z + 8) >> 3;
   Brick brick;
-  load_u32_pair(g.table, bz * U(g.table_xy) + by * U(g.table_x) + bx, brick.first_word, brick.steps);
+  load_u32_pair(g.table, (bz * U(g.table_xy) + by * U(g.table_x) + bx) << 1, brick.first_word, brick.steps);
   return brick;
 }
 
-// Whether every look-up is 0 in the brick that holds voxel (x, y, z); with linear interpolation, in the same brick of
-// dual cells.
-KERNEL B grid_is_empty(BrickGrid g, bool linear, I x, I y, I z) {
-  Brick brick = grid_brick(g, x, y, z);
+// Whether every look-up in the brick is 0; with linear interpolation, in the same brick of dual cells.
+KERNEL B brick_is_empty(Brick brick, bool linear) {
   return as_int(linear ? brick.first_word | (brick.steps ^ U(0x8000u)) : brick.first_word) == I(0);
 }
 
-KERNEL VoxelPlace grid_place(BrickGrid g, I x, I y, I z) {
-  U voxel = as_uint((x & 7) | ((y & 7) << 3) | ((z & 7) << 6));
-  Brick brick = grid_brick(g, x, y, z);
+// Where voxel number `voxel` of a brick is.
+KERNEL VoxelPlace brick_place(BrickGrid g, Brick brick, U voxel) {
   VoxelPlace place;
   place.word = brick.first_word;
   place.steps = brick.steps;
@@ -70,11 +71,29 @@ KERNEL VoxelPlace grid_place(BrickGrid g, I x, I y, I z) {
   return place;
 }
 
+// The number that voxel (x, y, z) has in its brick: x + 8 y + 64 z, or x + 9 (y + 9 z).
+KERNEL U plain_voxel(I x, I y, I z) { return as_uint((x & 7) | ((y & 7) << 3) | ((z & 7) << 6)); }
+KERNEL U bordered_voxel(I x, I y, I z) {
+  I layer = z & 7;
+  I row = (y & 7) + layer + (layer << 3);
+  return as_uint((x & 7) + row + (row << 3));
+}
+
+KERNEL VoxelPlace grid_place(BrickGrid g, I x, I y, I z) {
+  U voxel = g.bordered != 0u ? bordered_voxel(x, y, z) : plain_voxel(x, y, z);
+  return brick_place(g, grid_brick(g, x, y, z), voxel);
+}
+
+// The value of level q.
+KERNEL F level_value(U q, U steps) {
+  return fma(to_float(as_int(q)), bits_float(steps << 16), bits_float(steps & 0xffff0000u));
+}
+
 KERNEL F grid_value(BrickGrid g, VoxelPlace place) {
   U word = load_u32(g.bricks, place.word);
   if (g.bits == 32u) return bits_float(word);
   U q = shift_right_by(word, place.shift) & U(g.bits == 16u ? 0xffffu : 0xffu);
-  return fma(to_float(as_int(q)), bits_float(place.steps << 16), bits_float(place.steps & 0xffff0000u));
+  return level_value(q, place.steps);
 }
 
 // The value of voxel (x, y, z).
@@ -88,19 +107,49 @@ KERNEL VoxelPlace grid_nearest_place(BrickGrid g, vec3 p_index) {
 // The value of the voxel that holds p_index.
 KERNEL F grid_nearest(BrickGrid g, vec3 p_index) { return grid_value(g, grid_nearest_place(g, p_index)); }
 
-// The corners of dual cell (x, y, z), which spans the centres of voxels x and x + 1, and so on.
-KERNEL Cell grid_cell(BrickGrid g, I x, I y, I z) {
+// The values of voxel number `voxel` of a brick and of the next, which are in the same word or in two that follow each
+// other.
+KERNEL void brick_two_values(BrickGrid g, Brick brick, U voxel, INOUT(F) value, INOUT(F) next_value) {
+  VoxelPlace place = brick_place(g, brick, voxel);
+  U word;
+  U next_word;
+  load_u32_pair(g.bricks, place.word, word, next_word);
+  if (g.bits == 32u) {
+    value = bits_float(word);
+    next_value = bits_float(next_word);
+  } else {
+    U levels = U(g.bits == 16u ? 0xffffu : 0xffu);
+    U next_shift = (place.shift + U(g.bits)) & 31u;
+    next_word = select(as_int(next_shift) == I(0), next_word, word);
+    value = level_value(shift_right_by(word, place.shift) & levels, place.steps);
+    next_value = level_value(shift_right_by(next_word, next_shift) & levels, place.steps);
+  }
+}
+
+// The corners of dual cell (x, y, z), which spans the centres of voxels x and x + 1, and so on; `brick` holds voxel
+// (x, y, z).
+KERNEL Cell brick_cell(BrickGrid g, Brick brick, I x, I y, I z) {
   Cell c;
-  c.v000 = grid_voxel(g, x, y, z);
-  c.v100 = grid_voxel(g, x + 1, y, z);
-  c.v010 = grid_voxel(g, x, y + 1, z);
-  c.v110 = grid_voxel(g, x + 1, y + 1, z);
-  c.v001 = grid_voxel(g, x, y, z + 1);
-  c.v101 = grid_voxel(g, x + 1, y, z + 1);
-  c.v011 = grid_voxel(g, x, y + 1, z + 1);
-  c.v111 = grid_voxel(g, x + 1, y + 1, z + 1);
+  if (g.bordered != 0u) {
+    U voxel = bordered_voxel(x, y, z);
+    brick_two_values(g, brick, voxel, c.v000, c.v100);
+    brick_two_values(g, brick, voxel + U(9u), c.v010, c.v110);
+    brick_two_values(g, brick, voxel + U(81u), c.v001, c.v101);
+    brick_two_values(g, brick, voxel + U(90u), c.v011, c.v111);
+  } else {
+    c.v000 = grid_value(g, brick_place(g, brick, plain_voxel(x, y, z)));
+    c.v100 = grid_voxel(g, x + 1, y, z);
+    c.v010 = grid_voxel(g, x, y + 1, z);
+    c.v110 = grid_voxel(g, x + 1, y + 1, z);
+    c.v001 = grid_voxel(g, x, y, z + 1);
+    c.v101 = grid_voxel(g, x + 1, y, z + 1);
+    c.v011 = grid_voxel(g, x, y + 1, z + 1);
+    c.v111 = grid_voxel(g, x + 1, y + 1, z + 1);
+  }
   return c;
 }
+
+KERNEL Cell grid_cell(BrickGrid g, I x, I y, I z) { return brick_cell(g, grid_brick(g, x, y, z), x, y, z); }
 
 KERNEL F cell_mix(F a, F b, F f) { return fma(b - a, f, a); }
 

@@ -56,9 +56,9 @@ inline F bits_float(U x) { return std::bit_cast<F>(x); }
 inline U shift_right_by(U x, U bits) { return x >> bits; }
 inline U load_u32(Words words, I index) { return words[index]; }
 inline U load_u32(Words words, U index) { return words[index]; }
-inline void load_u32_pair(Words words, U pair, INOUT(U) first, INOUT(U) second) {
-  first = words[2 * pair];
-  second = words[2 * pair + 1];
+inline void load_u32_pair(Words words, U index, INOUT(U) first, INOUT(U) second) {
+  first = words[index];
+  second = words[index + 1];
 }
 
 #include "kernel/vector.inl"

@@ -122,22 +122,23 @@ HWY_INLINE F bits_float(U x) { return F(hn::BitCast(float_tag, x.v)); }
 HWY_INLINE U shift_right_by(U x, U bits) { return U(hn::Shr(x.v, bits.v)); }
 HWY_INLINE U load_u32(Words words, I index) { return U(hn::GatherIndex(uint_tag, words, index.v)); }
 HWY_INLINE U load_u32(Words words, U index) { return load_u32(words, as_int(index)); }
-// Words 2 pair and 2 pair + 1, by one gather of 64 bits where there is one: gathers cost by the number of their loads.
-HWY_INLINE void load_u32_pair(Words words, U pair, U& first, U& second) {
+// A word and the next, by one gather of 64 bits where there is one: gathers cost by the number of their loads.
+HWY_INLINE void load_u32_pair(Words words, U index, U& first, U& second) {
 #if HWY_TARGET <= HWY_AVX2
   const hn::ScalableTag<std::uint64_t> wide;
   const hn::RebindToSigned<decltype(wide)> wide_index;
   const hn::Half<decltype(int_tag)> half;
-  const auto* pairs = reinterpret_cast<const std::uint64_t*>(words);
-  const auto index = hn::BitCast(int_tag, pair.v);
-  const auto lower = hn::GatherIndex(wide, pairs, hn::PromoteTo(wide_index, hn::LowerHalf(half, index)));
-  const auto upper = hn::GatherIndex(wide, pairs, hn::PromoteTo(wide_index, hn::UpperHalf(half, index)));
+  const auto* base = reinterpret_cast<const std::uint64_t*>(words);
+  const auto at = hn::BitCast(int_tag, index.v);
+  const auto lower_offset = hn::ShiftLeft<2>(hn::PromoteTo(wide_index, hn::LowerHalf(half, at)));
+  const auto upper_offset = hn::ShiftLeft<2>(hn::PromoteTo(wide_index, hn::UpperHalf(half, at)));
+  const auto lower = hn::GatherOffset(wide, base, lower_offset), upper = hn::GatherOffset(wide, base, upper_offset);
   const auto low = hn::BitCast(uint_tag, lower), high = hn::BitCast(uint_tag, upper);
   first = U(hn::ConcatEven(uint_tag, high, low));
   second = U(hn::ConcatOdd(uint_tag, high, low));
 #else
-  first = load_u32(words, pair << 1);
-  second = load_u32(words, (pair << 1) + U(1u));
+  first = load_u32(words, index);
+  second = load_u32(words, index + U(1u));
 #endif
 }
 // Asks for words that will be loaded, so that they are near by then.

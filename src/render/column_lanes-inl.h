@@ -36,7 +36,9 @@ HWY_INLINE vec3 select3(B m, vec3 a, vec3 b) {
 }
 
 HWY_INLINE vec3 lanes_of(kernel::vec3 v) { return vec3(v.x, v.y, v.z); }
-HWY_INLINE BrickGrid lanes_of(const kernel::BrickGrid& g) { return {g.table, g.bricks, g.table_x, g.table_xy, g.bits}; }
+HWY_INLINE BrickGrid lanes_of(const kernel::BrickGrid& g) {
+  return {g.table, g.bricks, g.table_x, g.table_xy, g.bits, g.bordered};
+}
 
 HWY_INLINE F row_times(const float* row, vec3 v) { return fma(row[0], v.x, fma(row[1], v.y, F(row[2]) * v.z)); }
 // The image of a point.

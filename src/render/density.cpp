@@ -56,13 +56,12 @@ struct Marchers {
 
   Marchers() { std::fill(std::begin(stretch), std::end(stretch), none); }
 
-  // Writes down what the lanes `done` have found and gives them the next stretches, while there are any.
-  HWY_INLINE void take_next(const StretchArrays& a, B done, F found, float* integral) {
-    HWY_ALIGN float is_done[HWY_MAX_BYTES / sizeof(float)], value[HWY_MAX_BYTES / sizeof(float)];
-    store_lanes(select(done, F(1.0f), F(0.0f)), is_done);
+  // Writes down what the lanes `waiting` have found and gives them the next stretches, while there are any.
+  HWY_INLINE void take_next(const StretchArrays& a, std::uint32_t waiting, F found, float* integral) {
+    HWY_ALIGN float value[HWY_MAX_BYTES / sizeof(float)];
     store_lanes(found, value);
-    for (int lane = 0; lane < lane_count(); ++lane) {
-      if (is_done[lane] == 0) continue;
+    for (; waiting != 0; waiting &= waiting - 1) {
+      const int lane = __builtin_ctz(waiting);
       if (stretch[lane] != none) integral[stretch[lane]] = value[lane];
       stretch[lane] = next < a.size ? next++ : none;
     }
@@ -75,36 +74,42 @@ HWY_INLINE F brick_exit(F origin, F direction, I lo) {
   return select(direction == F(0.0f), F(1e30f), (wall - origin) / direction);
 }
 
-// Marches along the stretches, each lane along its own: it goes over an empty brick in one step, and on to the next
-// stretch when it is done.
+// Marches along the stretches, each lane along its own. Lanes that are done wait until a quarter of them are, and then
+// go on to the next stretches together. A quarter of lanes in empty bricks, too, goes over them in one step.
 void march_lanes(const BrickGrid& grid, const DensityQuadrature& q, const StretchArrays& a, float* integral) {
   Marchers marchers;
   const F shift = q.linear ? 0.5f : 0.0f;  // look-ups with linear interpolation are in bricks of dual cells
   Stretch s{};
   F count = 0.0f, step = 0.0f, i = 0.0f, sum = 0.0f;
-  B idle = i < F(0.0f);
   for (;;) {
     // The integral so far is sum * step; a lane is done after its last step or once it has enough.
-    const B done = both(negate(idle), either(i >= count, sum * step > F(q.enough)));
-    if (any(done)) {
-      marchers.take_next(a, done, sum * step, integral);
+    const B waiting = either(i >= count, sum * step > F(q.enough));
+    const int waiting_count = static_cast<int>(count_lanes(waiting));
+    if (waiting_count == lane_count() || (4 * waiting_count >= lane_count() && marchers.next < a.size)) {
+      marchers.take_next(a, lane_bits(waiting), sum * step, integral);
       const I stretch = load_lanes(marchers.stretch);
-      idle = stretch < I(0);
+      const B idle = stretch < I(0);
       if (!any(negate(idle))) return;
       s = load_stretches(a, max(stretch, I(0)));
-      count = step_count(s.length, F(q.step));
-      step = s.length / count;
-      i = select(done, F(0.0f), i);
-      sum = select(done, F(0.0f), sum);
+      const F steps = step_count(s.length, F(q.step));
+      step = s.length / steps;
+      count = select(idle, F(0.0f), steps);
+      i = select(waiting, F(0.0f), i);
+      sum = select(waiting, F(0.0f), sum);
+      continue;
     }
     const F u = q.placement_spread > 0 ? random_uniform(s.key, U(0u), U(0u), as_uint(to_int(i))) : F(0.0f);
     const F t = min(march_position(F(0.0f), step, to_int(i), F(q.placement_base), F(q.placement_spread), u), s.length);
-    const vec3 p = s.entry + t * s.direction;
-    const I x = floor_to_int(p.x - shift), y = floor_to_int(p.y - shift), z = floor_to_int(p.z - shift);
-    const B empty = both(negate(idle), grid_is_empty(grid, q.linear, x, y, z));
-    if (any(negate(either(idle, empty)))) sum = sum + density_at(grid, q.linear, p);
+    const vec3 p = s.entry + t * s.direction - vec3(shift, shift, shift);
+    const I x = floor_to_int(p.x), y = floor_to_int(p.y), z = floor_to_int(p.z);
+    const Brick brick = grid_brick(grid, x, y, z);
+    const B empty = brick_is_empty(brick, q.linear);
+    const F density = q.linear ? cell_linear(brick_cell(grid, brick, x, y, z), p.x - to_float(x), p.y - to_float(y),
+                                             p.z - to_float(z))
+                               : grid_voxel(grid, x, y, z);
+    sum = sum + select(waiting, F(0.0f), density);
     i = i + 1.0f;
-    if (any(empty)) {
+    if (4 * static_cast<int>(count_lanes(empty)) >= lane_count()) {
       const F exit = min(min(brick_exit(s.entry.x - shift, s.direction.x, x & -8),
                              brick_exit(s.entry.y - shift, s.direction.y, y & -8)),
                          brick_exit(s.entry.z - shift, s.direction.z, z & -8));

@@ -23,7 +23,7 @@ CompiledScene furnace_scene(VolumeGrid grid, int threads) {
   medium.phase_prepared = phase_functions()[static_cast<std::size_t>(medium.phase)].prepare(&g);
   medium.grid = 0;
   medium.index_from_world = inverse(grid.medium_from_index);
-  CompiledGrid compiled = compile_grid(std::move(grid), medium.linear, thread_count(threads));
+  CompiledGrid compiled = compile_grid(std::move(grid), medium.linear, BrickLayout::plain, thread_count(threads));
   medium.sigma_t = medium.sigma_s = constant_spectrum(100 / (2 * compiled.max_density));
   CompiledScene scene;
   scene.volumes = {{0, {CompiledRegion::Kind::box, medium.index_from_world, compiled.bounds_lo, compiled.bounds_hi}}};

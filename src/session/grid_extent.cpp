@@ -3,20 +3,13 @@
 #include <algorithm>
 #include <array>
 
-#include "kernel/scalar.h"
+#include "volume/kernel_view.h"
 
 namespace brume {
 
 namespace {
 
 using Index = std::array<int, 3>;
-
-// The view of the grid that kernels take.
-kernel::BrickGrid view(const BrickGrid& g) {
-  const auto row = static_cast<std::uint32_t>(g.bricks[0] + 2);
-  return {g.table.data(), g.words.data(), row, row * static_cast<std::uint32_t>(g.bricks[1] + 2),
-          static_cast<std::uint32_t>(g.storage)};
-}
 
 bool is_empty(const kernel::BrickGrid& g, Index brick) {
   const auto at = [&](std::size_t axis) { return static_cast<std::uint32_t>(brick[axis] + 1); };
@@ -27,7 +20,7 @@ bool is_empty(const kernel::BrickGrid& g, Index brick) {
 template <class PerBrick, class EndRow>
 void for_each_brick(const VolumeGrid& grid, int axis, PerBrick&& f, EndRow&& end_row) {
   const auto a = static_cast<std::size_t>(axis), b = (a + 1) % 3, c = (a + 2) % 3;
-  const kernel::BrickGrid g = view(grid.bricks);
+  const kernel::BrickGrid g = kernel_view(grid.bricks);
   const Index& bricks = grid.bricks.bricks;
   Index at;
   for (at[c] = 0; at[c] < bricks[c]; ++at[c])
@@ -53,7 +46,7 @@ Vector3 to_vector(Index v) { return {static_cast<double>(v[0]), static_cast<doub
 }  // namespace
 
 std::vector<Box3> occupied_boxes(const VolumeGrid& grid) {
-  const kernel::BrickGrid g = view(grid.bricks);
+  const kernel::BrickGrid g = kernel_view(grid.bricks);
   const float threshold = grid.bricks.max_value / 1000;
   std::vector<Box3> boxes;
   const auto look_at_brick = [&](Index brick) {
@@ -71,7 +64,7 @@ std::vector<Box3> occupied_boxes(const VolumeGrid& grid) {
 }
 
 float smallest_density(const VolumeGrid& grid) {
-  const kernel::BrickGrid g = view(grid.bricks);
+  const kernel::BrickGrid g = kernel_view(grid.bricks);
   const Index &first = grid.first_voxel, &end = grid.bricks.voxels;
   float smallest = grid.bricks.max_value;
   for (int z = first[2]; z < end[2]; ++z)
@@ -84,7 +77,7 @@ float smallest_density(const VolumeGrid& grid) {
 }
 
 double densest_row(const VolumeGrid& grid, int axis) {
-  const kernel::BrickGrid g = view(grid.bricks);
+  const kernel::BrickGrid g = kernel_view(grid.bricks);
   const auto b = static_cast<std::size_t>((axis + 1) % 3), c = static_cast<std::size_t>((axis + 2) % 3);
   std::array<double, brick_edge * brick_edge> sums{};  // of the rows that cross the present row of bricks
   double densest = 0;

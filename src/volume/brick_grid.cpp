@@ -2,55 +2,19 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
+#include "volume/brick_levels.h"
+
 namespace brume {
 namespace {
-
-constexpr std::uint32_t gap_steps = 0x8000;  // kernel/lookup.inl
-constexpr std::size_t max_words = std::size_t{1} << 31;
-
-std::size_t words_per_brick(Storage storage) {
-  return static_cast<std::size_t>(brick_voxels) * static_cast<std::size_t>(storage) / 32;
-}
 
 // The entry in the table that holds brick (x, y, z), border included.
 std::size_t table_index(const BrickGrid& grid, std::array<int, 3> brick) {
   const auto at = [](int i) { return static_cast<std::size_t>(i) + 1; };
   const auto row = [&](int axis) { return static_cast<std::size_t>(grid.bricks[static_cast<std::size_t>(axis)]) + 2; };
   return (at(brick[2]) * row(1) + at(brick[1])) * row(0) + at(brick[0]);
-}
-
-// The upper half of the float that is nearest to x among those not above it that end in 16 zero bits.
-std::uint32_t half_float_below(float x) {
-  const auto bits = std::bit_cast<std::uint32_t>(x);
-  const bool rounds_up = x < 0 && (bits & 0xffff) != 0;             // cutting bits moves it towards 0
-  return (bits >> 16) + (rounds_up && bits < 0xff7f0000u ? 1 : 0);  // the last finite one stays
-}
-
-// The same, not below; of a positive number.
-std::uint32_t half_float_above(double x) {
-  std::uint32_t upper = std::bit_cast<std::uint32_t>(static_cast<float>(x)) >> 16;
-  while (static_cast<double>(std::bit_cast<float>(upper << 16)) < x) ++upper;
-  return upper;
-}
-
-// Packs values as steps of `scale` above `offset`, `bits` each, the first in the lowest bits.
-void append_packed(std::vector<std::uint32_t>& words, std::span<const float, brick_voxels> values, double offset,
-                   double scale, unsigned bits) {
-  const double levels = static_cast<double>((1u << bits) - 1);
-  const double steps_per_unit = scale > 0 ? 1 / scale : 0;
-  const unsigned per_word = 32 / bits;
-  for (unsigned i = 0; i < brick_voxels; i += per_word) {
-    std::uint32_t word = 0;
-    for (unsigned j = 0; j < per_word; ++j) {
-      const double q = std::clamp(std::nearbyint((values[i + j] - offset) * steps_per_unit), 0.0, levels);
-      word |= static_cast<std::uint32_t>(q) << (j * bits);
-    }
-    words.push_back(word);
-  }
 }
 
 // Marks the empty bricks, the border's too, whose neighbours on the upper sides are empty. In one pass, since tables
@@ -79,11 +43,11 @@ BrickGridBuilder::BrickGridBuilder(std::array<int, 3> voxels, Storage storage) {
     if (voxels[axis] < 1) throw std::length_error("a grid must have at least one voxel along each axis");
     grid_.bricks[axis] = (voxels[axis] - 1) / brick_edge + 1;
     const std::size_t row = static_cast<std::size_t>(grid_.bricks[axis]) + 2;
-    if (row > max_words / table_words) throw std::length_error("the grid's table of bricks is too large");
+    if (row > max_brick_words / table_words) throw std::length_error("the grid's table of bricks is too large");
     table_words *= row;
   }
   grid_.table.assign(table_words, 0);
-  grid_.words.assign(words_per_brick(storage), 0);
+  grid_.words.assign(packed_words(brick_voxels, storage), 0);
 }
 
 void BrickGridBuilder::set_brick(std::array<int, 3> brick, std::span<const float, brick_voxels> values) {
@@ -145,19 +109,11 @@ void BrickGridBuilder::count(std::span<const float> values) {
 
 BrickEntry BrickGridBuilder::append(std::span<const float, brick_voxels> values, float lo, float hi) {
   std::vector<std::uint32_t>& words = grid_.words;
-  const std::size_t first = words.size();
-  if (first + words_per_brick(grid_.storage) > max_words) throw std::length_error("the grid's bricks are too large");
-  const unsigned bits = static_cast<unsigned>(grid_.storage);
-  BrickEntry entry{static_cast<std::uint32_t>(first), 0};
-  if (grid_.storage == Storage::f32) {
-    for (const float v : values) words.push_back(std::bit_cast<std::uint32_t>(v));
-  } else {
-    const double levels = static_cast<double>((1u << bits) - 1);
-    entry.steps = half_float_below(lo) << 16;
-    const auto offset = static_cast<double>(entry.offset());
-    entry.steps |= half_float_above((static_cast<double>(hi) - offset) / levels);
-    append_packed(words, values, offset, static_cast<double>(entry.scale()), bits);
-  }
+  const std::size_t first = words.size(), count = packed_words(brick_voxels, grid_.storage);
+  if (first + count > max_brick_words) throw std::length_error("the grid's bricks are too large");
+  const BrickEntry entry{static_cast<std::uint32_t>(first), level_steps(lo, hi, grid_.storage)};
+  words.resize(first + count);
+  pack_levels(values, entry, grid_.storage, std::span(words).last(count));
   return entry;
 }
 

@@ -20,6 +20,8 @@ enum class Storage { u8 = 8, u16 = 16, f32 = 32 };
 constexpr int brick_edge = 8;
 constexpr int brick_voxels = brick_edge * brick_edge * brick_edge;
 
+constexpr std::size_t max_brick_words = std::size_t{1} << 31;  // of all bricks, and of the table
+
 // A brick in the table: its first word, and how its levels become values (kernel/lookup.inl).
 struct BrickEntry {
   std::uint32_t first_word = 0;  // 0: the empty brick
@@ -29,10 +31,13 @@ struct BrickEntry {
   float scale() const { return std::bit_cast<float>(steps << 16); }
 };
 
+constexpr std::uint32_t gap_steps = 0x8000;  // of an empty brick whose neighbours on the upper sides are empty
+
 struct BrickGrid {
   std::array<int, 3> voxels{};  // nx, ny, nz
   std::array<int, 3> bricks{};  // ceil(voxels / 8)
   Storage storage = Storage::u16;
+  bool bordered = false;             // volume/brick_borders.h
   std::vector<std::uint32_t> table;  // (bricks + 2) along each axis, x fastest: the two words of a BrickEntry each
   std::vector<std::uint32_t> words;  // the bricks, the shared empty one first
 
@@ -49,7 +54,7 @@ struct BrickGrid {
 class BrickGridBuilder {
  public:
   // An array of nx x ny x nz voxels, at least 1 along each axis, all 0. This and set_brick throw std::length_error
-  // where the grid would need more than 2^31 words.
+  // where the grid would need more than max_brick_words.
   BrickGridBuilder(std::array<int, 3> voxels, Storage storage);
 
   // Sets the brick that begins at voxel 8 (bx, by, bz) to 512 values, x fastest. Each brick at most once. Values beyond

@@ -1,16 +1,13 @@
 #include "volume/resample.h"
 
 #include "base/parallel.h"
-#include "kernel/scalar.h"
+#include "volume/kernel_view.h"
 
 namespace brume {
 
 VolumeGrid resample(const VolumeGrid& grid, std::array<int, 3> voxels, Storage storage, int threads) {
   const BrickGrid& from = grid.bricks;
-  const auto row = static_cast<std::uint32_t>(from.bricks[0] + 2);
-  const kernel::BrickGrid view{from.table.data(), from.words.data(), row,
-                               row * static_cast<std::uint32_t>(from.bricks[1] + 2),
-                               static_cast<std::uint32_t>(from.storage)};
+  const kernel::BrickGrid view = kernel_view(from);
   std::array<float, 3> step{};  // from voxel to voxel, in the grid's own
   std::array<int, 3> bricks{};
   for (std::size_t axis = 0; axis < 3; ++axis) {

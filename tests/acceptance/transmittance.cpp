@@ -141,7 +141,7 @@ TrackTasks make_tasks(const DensityStretches& rays, std::uint32_t pass, std::uin
 // Prints what was found, and returns whether the grid passes.
 bool check(const std::string& name, VolumeGrid volume) {
   const int bits = static_cast<int>(volume.bricks.storage);
-  const CompiledGrid grid = compile_grid(std::move(volume), true, 1);
+  const CompiledGrid grid = compile_grid(std::move(volume), true, BrickLayout::plain, 1);
   const Rays rays = draw_rays(grid);
   if (rays.depths.size() < ray_count) {
     std::printf("%s: FAILS: few rays meet any density\n", name.c_str());

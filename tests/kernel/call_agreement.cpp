@@ -107,7 +107,7 @@ std::map<std::string, Agreement, std::less<>> agreements() {
   all["grid_stochastic"] = {2, 0, [](int n, int a) { return a < 3 ? uniform(n, a, -7, 23) : random_word(n, a); }};
   all["grid_nearest"] = {2, 0, range(-7.5f, 23.5f)};
   all["grid_linear"] = {2, 3e-7, range(-7, 23.5f)};
-  all["grid_is_empty"] = {0, 0, range(-7.5f, 23.5f)};
+  all["brick_is_empty"] = {0, 0, range(-7.5f, 23.5f)};
   // Neighbouring colours of the table have no relation here; black bodies' are within a hundredth of each other.
   all["emission_factor"] = {2, 2e-3, range(-7, 23.5f)};
   all["emission_along_flights"] = {4, 0, range(0, 90)};

@@ -11,7 +11,7 @@ namespace brume {
 struct TestGrid {
   const std::uint32_t* table = nullptr;
   const std::uint32_t* bricks = nullptr;
-  std::uint32_t table_x = 0, table_xy = 0, bits = 0;
+  std::uint32_t table_x = 0, table_xy = 0, bits = 0, bordered = 0;
   const std::uint32_t* blackbody = nullptr;
 };
 

@@ -25,7 +25,7 @@ CALL(ball_span, 6, 5)
 CALL(cone_falloff, 3, 1)
 CALL(emission_factor, 3, 3)
 CALL(emission_along_flights, 1, 1)
-CALL(grid_is_empty, 3, 2)
+CALL(brick_is_empty, 3, 2)
 CALL(disk_point, 2, 2)
 #define PHASE(name) CALL(name##_eval, 5, 1) CALL(name##_sample, 5, 1) CALL(name##_mean_cosine, 4, 1)
 #include "kernel/phase_list.inl"

@@ -10,7 +10,7 @@ layout(std430, binding = 2) writeonly buffer Results { uint results[]; };
 
 // A brick grid and a table of black bodies' colours, as places in `words`.
 struct TestGrid {
-  uint table, bricks, table_x, table_xy, bits, blackbody;
+  uint table, bricks, table_x, table_xy, bits, bordered, blackbody;
 };
 layout(push_constant) uniform Dispatch {
   uint call, count;
@@ -20,9 +20,9 @@ layout(push_constant) uniform Dispatch {
 #include "kernel/dialect.glsl"
 uint load_u32(uint array, uint index) { return words[array + index]; }
 uint load_u32(uint array, int index) { return words[array + uint(index)]; }
-void load_u32_pair(uint array, uint pair, out uint first, out uint second) {
-  first = words[array + 2u * pair];
-  second = words[array + 2u * pair + 1u];
+void load_u32_pair(uint array, uint index, out uint first, out uint second) {
+  first = words[array + index];
+  second = words[array + index + 1u];
 }
 #include "kernel/all.inl"
 #include "kernel/phase_dispatch.glsl"

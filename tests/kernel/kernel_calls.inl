@@ -1,7 +1,7 @@
-// Every kernel function behind one signature, so that one loop compares the builds: a[] holds its arguments and r[] takes
-// its results, integers as the bits of a float. Included textually in each build, as the kernel files are, after macros
-// of the build's own: KERNEL_CALL(name) begins the function call_name, which has a, r and a test grid, `grid`, in its
-// scope; EVAL, SAMPLE and MEAN_COSINE call a phase function.
+// Every kernel function behind one signature, so that one loop compares the builds: a[] holds its arguments and r[]
+// takes its results, integers as the bits of a float. Included textually in each build, as the kernel files are, after
+// macros of the build's own: KERNEL_CALL(name) begins the function call_name, which has a, r and a test grid, `grid`,
+// in its scope; EVAL, SAMPLE and MEAN_COSINE call a phase function.
 
 #define VEC3(i) vec3(a[i], a[i + 1], a[i + 2])
 #define VEC4(i) vec4(a[i], a[i + 1], a[i + 2], a[i + 3])
@@ -15,6 +15,7 @@ KERNEL BrickGrid call_grid(TestGrid words) {
   g.table_x = words.table_x;
   g.table_xy = words.table_xy;
   g.bits = words.bits;
+  g.bordered = words.bordered;
   return g;
 }
 
@@ -113,12 +114,13 @@ KERNEL_CALL(majorant_walk) {
 KERNEL_CALL(grid_stochastic) { r[0] = grid_stochastic(call_grid(grid), VEC3(0), float_bits(a[3]), float_bits(a[4])); }
 KERNEL_CALL(grid_nearest) { r[0] = grid_nearest(call_grid(grid), VEC3(0)); }
 KERNEL_CALL(grid_linear) { r[0] = grid_linear(call_grid(grid), VEC3(0)); }
-KERNEL_CALL(grid_is_empty) {
+KERNEL_CALL(brick_is_empty) {
   I x = floor_to_int(a[0]);
   I y = floor_to_int(a[1]);
   I z = floor_to_int(a[2]);
-  r[0] = select(grid_is_empty(call_grid(grid), false, x, y, z), F(1.0f), F(0.0f));
-  r[1] = select(grid_is_empty(call_grid(grid), true, x, y, z), F(1.0f), F(0.0f));
+  Brick brick = grid_brick(call_grid(grid), x, y, z);
+  r[0] = select(brick_is_empty(brick, false), F(1.0f), F(0.0f));
+  r[1] = select(brick_is_empty(brick, true), F(1.0f), F(0.0f));
 }
 KERNEL_CALL(cell_mean_linear) {
   I x = floor_to_int(a[0]);
@@ -159,9 +161,9 @@ KERNEL_CALL(emission_factor) {
 }
 KERNEL_CALL(emission_along_flights) { r[0] = emission_along_flights(a[0], 0.6f); }
 
-#define PHASE(name)                                                   \
-  KERNEL_CALL(name##_eval) { r[0] = EVAL(name, a[0], VEC4(1)); }      \
-  KERNEL_CALL(name##_sample) { r[0] = SAMPLE(name, a[0], VEC4(1)); }  \
+#define PHASE(name)                                                  \
+  KERNEL_CALL(name##_eval) { r[0] = EVAL(name, a[0], VEC4(1)); }     \
+  KERNEL_CALL(name##_sample) { r[0] = SAMPLE(name, a[0], VEC4(1)); } \
   KERNEL_CALL(name##_mean_cosine) { r[0] = MEAN_COSINE(name, VEC4(0)); }
 #include "kernel/phase_list.inl"
 #undef PHASE

@@ -53,15 +53,13 @@ class LanesAgree : public testing::TestWithParam<InstructionSet> {
 TEST_P(LanesAgree, WidthIsTheSets) { EXPECT_EQ(call_lane_count(), GetParam().lanes); }
 
 TEST_P(LanesAgree, EveryKernelFunction) {
-  const std::array voxels{20, 17, 19};
   std::vector<std::uint32_t> blackbody;
   for (const float value : noise_values({3, 2121, 1}, 0)) blackbody.push_back(std::bit_cast<std::uint32_t>(value));
-  for (const Storage storage : {Storage::u8, Storage::u16, Storage::f32}) {
-    const BrickGrid grid = make_brick_grid(voxels, noise_values(voxels, 0), storage);
-    const kernel::BrickGrid view = grid_view(grid);
+  for (const BrickGrid& grid : noise_grids({20, 17, 19})) {
+    const kernel::BrickGrid view = kernel_view(grid);
     const int calls = static_cast<int>(call_shapes().size());
     for (int call = 0; call < calls; ++call)
-      compare(call, {view.table, view.bricks, view.table_x, view.table_xy, view.bits, blackbody.data()});
+      compare(call, {view.table, view.bricks, view.table_x, view.table_xy, view.bits, view.bordered, blackbody.data()});
   }
 }
 

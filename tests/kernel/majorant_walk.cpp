@@ -80,7 +80,7 @@ double tap_p_value(kernel::vec3 fraction, kernel::vec3 believed) {
     values[static_cast<std::size_t>(3 + (corner & 1) + 8 * (3 + (corner >> 1 & 1)) + 64 * (3 + (corner >> 2)))] =
         static_cast<float>(corner + 1);
   const BrickGrid grid = make_brick_grid({8, 8, 8}, values, Storage::f32);
-  const kernel::BrickGrid view = grid_view(grid);
+  const kernel::BrickGrid view = kernel_view(grid);
   std::vector<double> counts(8), chances(8);
   constexpr std::uint32_t taps = 1u << 20;
   for (std::uint32_t i = 0; i < taps; ++i) {

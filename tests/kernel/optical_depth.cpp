@@ -17,7 +17,7 @@ constexpr std::uint32_t rays = sanitized ? 4000 : 100000;
 // Noise in a brick grid of 16-bit values, and the same values as doubles.
 struct Noise {
   BrickGrid grid = make_brick_grid({edge, edge, edge}, noise_values({edge, edge, edge}, 0.05f), Storage::u16);
-  kernel::BrickGrid view = grid_view(grid);
+  kernel::BrickGrid view = kernel_view(grid);
 
   // In double, at a point in index coordinates.
   double voxel(int x, int y, int z) const { return kernel::grid_voxel(view, x, y, z); }

@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "kernel/scalar.h"
-#include "volume/brick_grid.h"
+#include "volume/brick_borders.h"
+#include "volume/kernel_view.h"
 
 namespace brume {
 
@@ -18,11 +19,14 @@ inline std::vector<float> noise_values(std::array<int, 3> voxels, float lo) {
   return values;
 }
 
-// What the scalar build's look-up takes; the grid must outlive it.
-inline kernel::BrickGrid grid_view(const BrickGrid& grid) {
-  const auto row = static_cast<std::uint32_t>(grid.bricks[0] + 2),
-             layer = row * static_cast<std::uint32_t>(grid.bricks[1] + 2);
-  return {grid.table.data(), grid.words.data(), row, layer, static_cast<std::uint32_t>(grid.storage)};
+// Grids of the same noise in every storage, their bricks plain and bordered.
+inline std::vector<BrickGrid> noise_grids(std::array<int, 3> voxels) {
+  std::vector<BrickGrid> grids;
+  for (const Storage storage : {Storage::u8, Storage::u16, Storage::f32}) {
+    grids.push_back(make_brick_grid(voxels, noise_values(voxels, 0), storage));
+    grids.push_back(add_borders(grids.back(), 1));
+  }
+  return grids;
 }
 
 }  // namespace brume

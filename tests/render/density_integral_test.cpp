@@ -7,7 +7,8 @@
 
 #include "lanes/instruction_set.h"
 #include "render/density.h"
-#include "volume/brick_grid.h"
+#include "volume/brick_borders.h"
+#include "volume/kernel_view.h"
 
 namespace brume {
 namespace {
@@ -90,18 +91,21 @@ double oracle(const Field& field, const DensityStretches& s, std::size_t i, bool
   return sum * length / steps;
 }
 
-class DensityIntegral : public ::testing::Test {
+// With plain bricks and with bordered ones.
+class DensityIntegral : public ::testing::TestWithParam<bool> {
  protected:
+  static BrickGrid make_grid(const Field& field) {
+    BrickGrid grid = make_brick_grid(resolution, field.values, Storage::f32);
+    return GetParam() ? add_borders(std::move(grid), 1) : std::move(grid);
+  }
   std::vector<float> integrate(const DensityQuadrature& q, DensityStretches s) {
     std::vector<float> integral;
-    integrate_density({grid.table.data(), grid.words.data(), static_cast<std::uint32_t>(grid.bricks[0] + 2),
-                       static_cast<std::uint32_t>((grid.bricks[0] + 2) * (grid.bricks[1] + 2)), 32},
-                      q, s, integral);
+    integrate_density(kernel_view(grid), q, s, integral);
     return integral;
   }
-  // By how much marching in steps of 0.01 is away from the DDA at most.
-  float worst_of_marching(bool linear, float base, float spread) {
-    const auto exact = integrate({linear, true, 0, 0, 0, 1e9f}, stretches);
+  std::vector<float> by_dda(bool linear) { return integrate({linear, true, 0, 0, 0, 1e9f}, stretches); }
+  // By how much marching in steps of 0.01 is away from `exact` at most.
+  float worst_of_marching(bool linear, float base, float spread, const std::vector<float>& exact) {
     const auto marched = integrate({linear, false, 0.01f, base, spread, 1e9f}, stretches);
     float worst = 0;
     for (std::size_t i = 0; i < stretches.size(); ++i) worst = std::max(worst, std::abs(marched[i] - exact[i]));
@@ -110,11 +114,14 @@ class DensityIntegral : public ::testing::Test {
   void TearDown() override { use_instruction_set(""); }
 
   Field field = random_field();
-  BrickGrid grid = make_brick_grid(resolution, field.values, Storage::f32);
+  BrickGrid grid = make_grid(field);
   DensityStretches stretches = random_stretches(100);
 };
 
-TEST_F(DensityIntegral, DdaIsExact) {
+INSTANTIATE_TEST_SUITE_P(Bricks, DensityIntegral, testing::Bool(),
+                         [](const auto& bordered) { return bordered.param ? "bordered" : "plain"; });
+
+TEST_P(DensityIntegral, DdaIsExact) {
   for (const bool linear : {false, true}) {
     std::vector<double> expected;
     for (std::size_t i = 0; i < stretches.size(); ++i) expected.push_back(oracle(field, stretches, i, linear));
@@ -131,7 +138,7 @@ TEST_F(DensityIntegral, DdaIsExact) {
 }
 
 // Catches quadrature over voxels where the interpolant is smooth only within dual cells.
-TEST_F(DensityIntegral, LinearOverPrimalVoxelsWouldBeWrong) {
+TEST_P(DensityIntegral, LinearOverPrimalVoxelsWouldBeWrong) {
   double worst = 0;
   const auto nearest = integrate({false, true, 0, 0, 0, 1e9f}, stretches);
   for (std::size_t i = 0; i < stretches.size(); ++i)
@@ -139,7 +146,7 @@ TEST_F(DensityIntegral, LinearOverPrimalVoxelsWouldBeWrong) {
   EXPECT_GT(worst, 0.05);
 }
 
-TEST_F(DensityIntegral, MarchingConvergesToTheDda) {
+TEST_P(DensityIntegral, MarchingConvergesToTheDda) {
   for (const InstructionSet& set : available_instruction_sets()) {
     ASSERT_TRUE(use_instruction_set(set.name));
     const auto exact = integrate({true, true, 0, 0, 0, 1e9f}, stretches);
@@ -156,20 +163,22 @@ TEST_F(DensityIntegral, MarchingConvergesToTheDda) {
 }
 
 // Catches steps over an empty brick that go too far, or over one into which a neighbour's values reach.
-TEST_F(DensityIntegral, MarchingStepsOverWhatIsEmptyOnly) {
-  grid = make_brick_grid(resolution, corner_field().values, Storage::f32);
+TEST_P(DensityIntegral, MarchingStepsOverWhatIsEmptyOnly) {
+  grid = make_grid(corner_field());
   stretches = random_stretches(1000);
+  const std::vector<float> linear = by_dda(true), nearest = by_dda(false);
   for (const InstructionSet& set : available_instruction_sets()) {
     ASSERT_TRUE(use_instruction_set(set.name));
     for (const auto& [base, spread] : {std::pair{0.5f, 0.0f}, {0.0f, 1.0f}, {0.25f, 0.5f}}) {
-      EXPECT_LT(worst_of_marching(true, base, spread), 2e-3f) << set.name << " " << base;
-      EXPECT_LT(worst_of_marching(false, base, spread), 2e-2f) << set.name << " " << base;
+      EXPECT_LT(worst_of_marching(true, base, spread, linear), 2e-3f) << set.name << " " << base;
+      EXPECT_LT(worst_of_marching(false, base, spread, nearest), 2e-2f) << set.name << " " << base;
     }
   }
-  // The twin: all empty bricks are marked as if their neighbours were empty too.
+  // The twin: all bricks without a value of their own are taken for empty, as if their neighbours were empty too.
+  const BrickGrid plain = make_brick_grid(resolution, corner_field().values, Storage::f32);
   for (std::size_t i = 0; i < grid.table.size(); i += 2)
-    if (grid.table[i] == 0) grid.table[i + 1] = grid.table[1];
-  EXPECT_GT(worst_of_marching(true, 0.5f, 0), 0.1f);
+    if (plain.table[i] == 0) grid.table[i] = 0, grid.table[i + 1] = gap_steps;
+  EXPECT_GT(worst_of_marching(true, 0.5f, 0, linear), 0.1f);
 }
 
 // The z-score of marching with coarse steps at one random place each, over many streams, against the exact integral.
@@ -184,7 +193,7 @@ double placement_z(const std::vector<float>& samples, double expected) {
   return (mean - expected) / std::sqrt(variance);
 }
 
-TEST_F(DensityIntegral, RandomPlacementIsUnbiased) {
+TEST_P(DensityIntegral, RandomPlacementIsUnbiased) {
   DensityStretches many;
   for (std::uint32_t key = 0; key < 65536; ++key)
     many.add({1.3f, 2.2f, 0.4f}, {0.2f, 0.3f, 0.45f}, 50, key * 2654435761u);
@@ -197,7 +206,7 @@ TEST_F(DensityIntegral, RandomPlacementIsUnbiased) {
   }
 }
 
-TEST_F(DensityIntegral, AResultDoesNotDependOnItsNeighbours) {
+TEST_P(DensityIntegral, AResultDoesNotDependOnItsNeighbours) {
   const auto all = integrate({true, false, 0.7f, 0, 1, 1e9f}, stretches);
   for (const std::size_t i : {std::size_t{0}, std::size_t{17}, std::size_t{99}}) {
     DensityStretches one;
@@ -208,7 +217,7 @@ TEST_F(DensityIntegral, AResultDoesNotDependOnItsNeighbours) {
   }
 }
 
-TEST_F(DensityIntegral, EnoughEndsEarlyAndNotTooEarly) {
+TEST_P(DensityIntegral, EnoughEndsEarlyAndNotTooEarly) {
   const auto all = integrate({true, false, 0.7f, 0.5f, 0, 1e9f}, stretches);
   const auto some = integrate({true, false, 0.7f, 0.5f, 0, 2.0f}, stretches);
   for (std::size_t i = 0; i < stretches.size(); ++i)

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-#include "volume/grid_views.h"
+#include "volume/kernel_view.h"
 
 namespace brume {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "volume/grid_views.h"
+#include "volume/kernel_view.h"
 #include "volume/volume_grid.h"
 #include "volume/write_files.h"
 

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "volume/grid_views.h"
+#include "volume/brick_borders.h"
+#include "volume/kernel_view.h"
 #include "volume/volume_grid.h"
 
 namespace brume {
@@ -26,6 +27,8 @@ BrickGrid test_grid() {
   }
   return make_brick_grid(voxels, values, Storage::f32);
 }
+
+std::vector<BrickGrid> test_grids() { return {test_grid(), add_borders(test_grid(), 1)}; }
 
 double nearest_reference(Vector3 p) {
   return double{voxel_value(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)),
@@ -65,20 +68,17 @@ kernel::vec3 to_kernel(Vector3 p) {
 }
 
 TEST(LookUp, NearestIsTheVoxelsValue) {
-  const BrickGrid grid = test_grid();
-  for (const Vector3 p : positions(20000)) {
-    ASSERT_EQ(double{kernel::grid_nearest(kernel_view(grid), to_kernel(p))}, nearest_reference(p))
-        << p.x << " " << p.y << " " << p.z;
-  }
+  for (const BrickGrid& grid : test_grids())
+    for (const Vector3 p : positions(20000))
+      ASSERT_EQ(double{kernel::grid_nearest(kernel_view(grid), to_kernel(p))}, nearest_reference(p))
+          << p.x << " " << p.y << " " << p.z;
 }
 
 TEST(LookUp, LinearIsTheInterpolant) {
-  const BrickGrid grid = test_grid();
-  for (const Vector3 p : positions(20000)) {
-    const double expected = linear_reference(p);
-    ASSERT_NEAR(double{kernel::grid_linear(kernel_view(grid), to_kernel(p))}, expected, 1e-4)
-        << p.x << " " << p.y << " " << p.z;
-  }
+  for (const BrickGrid& grid : test_grids())
+    for (const Vector3 p : positions(20000))
+      ASSERT_NEAR(double{kernel::grid_linear(kernel_view(grid), to_kernel(p))}, linear_reference(p), 1e-4)
+          << grid.bordered << " " << p.x << " " << p.y << " " << p.z;
 }
 
 // The twin: the same grid read with x and z exchanged is told apart.

@@ -7,7 +7,7 @@
 #include <bit>
 #include <random>
 
-#include "volume/grid_views.h"
+#include "volume/kernel_view.h"
 
 namespace brume {
 namespace {

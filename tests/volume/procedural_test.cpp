@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "volume/grid_views.h"
+#include "volume/kernel_view.h"
 #include "volume/resample.h"
 
 namespace brume {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/diagnostics.h"
-#include "volume/grid_views.h"
+#include "volume/kernel_view.h"
 #include "volume/make_vol.h"
 #include "volume/read_volume.h"
 #include "volume/write_files.h"
