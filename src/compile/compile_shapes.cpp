@@ -8,6 +8,7 @@
 
 #include "base/fresnel.h"
 #include "base/microfacet.h"
+#include "compile/bounds_media.h"
 #include "compile/compiler.h"
 #include "compile/displace.h"
 #include "compiled/coat.h"
@@ -141,7 +142,7 @@ void Compiler::add_shape(const ShapeDescription& shape) {
   if (is_cut_out(shape)) {
     check_cut_out(shape);
     compiled.alpha = operand(shape.alpha);
-  } else if (inside != outside) {
+  } else if (bounds_media(shape)) {
     compiled.boundary = static_cast<std::int32_t>(compiled_.boundaries.size());
     compiled_.boundaries.push_back({inside, outside});
   }
@@ -160,7 +161,6 @@ void Compiler::add_shape(const ShapeDescription& shape) {
   if (const Spectrum* absorption = absorption_of(shape)) add_absorption(std::move(parts), *absorption);
 }
 
-// A ray that passes a cut-out is as far into media as before, so a cut-out bounds none.
 void Compiler::check_cut_out(const ShapeDescription& shape) {
   const char* what = !shape.inside.empty() && shape.inside != shape.outside ? "has a medium inside"
                      : absorption_of(shape)                                 ? "absorbs"

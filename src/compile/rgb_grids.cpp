@@ -1,4 +1,5 @@
 #include "compile/rgb_grids.h"
+#include "compile/bounds_media.h"
 
 #include <fmt/format.h>
 
@@ -104,7 +105,7 @@ SceneDescription with_rgb_grids_as_sums(const SceneDescription& scene) {
   }
   for (const ShapeDescription& shape : scene.shapes) {
     const bool is_volume = std::holds_alternative<VolumeShape>(shape.kind);
-    if (shape.inside == shape.outside && !is_volume) continue;
+    if (!is_volume && !bounds_media(shape)) continue;
     const auto add = [&](const std::string& inside, const std::string& outside) {
       ShapeDescription boundary = shape;
       boundary.material = InterfaceMaterial{};

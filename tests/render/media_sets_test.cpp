@@ -83,6 +83,27 @@ TEST(MediaSets, AMediumThatOnlyTheCameraRecordsIsEverywhere) {
   EXPECT_NEAR(radiance(s), 0.5 / 3.14159265 * std::exp(-11 * 0.3), 2e-5 * 0.01);
 }
 
+// As scenes have it that name the fog for the camera: what comes later inherits the interface.
+TEST(MediaSets, OpaqueSurfacesThatInheritTheFogLeaveItAsItIs) {
+  SceneDescription s = view({homogeneous_medium("fog", 0.3f, 0)}, {square_facing_z({0, 0, 0}, 1, 0.5f)});
+  s.camera.medium = "fog";
+  s.lights = {point_light({0.05, 0.02, -1}, 1)};
+  const double expected = 0.5 / 3.14159265 * std::exp(-11 * 0.3);
+  s.shapes[0].outside = "fog";
+  EXPECT_NEAR(radiance(s), expected, 2e-5 * 0.01);
+  s.shapes[0].reverse_orientation = true;
+  EXPECT_NEAR(radiance(s), expected, 2e-5 * 0.01);
+  s.shapes.push_back(sphere_shape({0, 0, 3}, 1, "", "fog"));
+  s.shapes.back().material = s.shapes[0].material;
+  EXPECT_NEAR(radiance(s), expected, 2e-5 * 0.01);
+  // The twin: were the square a boundary, as one is that light passes, the fog before it would be there twice.
+  s.shapes.push_back(s.shapes[0]);
+  s.shapes.back().material = InterfaceMaterial{};
+  s.shapes.back().world_from_object = translate({0, 0, 1}) * s.shapes.back().world_from_object;
+  s.shapes.back().reverse_orientation = false;
+  EXPECT_GT(std::abs(radiance(s) - expected), 0.5 * expected);
+}
+
 TEST(MediaSets, WhatLiesOutsideOfTheShapeThatTheCameraIsInIsEverywhereElse) {
   const auto thin = homogeneous_medium("thin", 0.1f, 0), fog = homogeneous_medium("fog", 0.3f, 0);
   // The camera stands at z = -10: 2 units of the thin medium, then 10 of fog to a floor.
