@@ -12,6 +12,7 @@
 #include "render/backend.h"
 #include "render/camera_ray.h"
 #include "render/classic.h"
+#include "render/open_boundary.h"
 #include "render/reference.h"
 #include "render/volpath.h"
 
@@ -108,6 +109,8 @@ class CpuBackend : public Backend {
     shadow_cache_.reset();
     counts_ = {};
   }
+
+  std::optional<kernel::vec3> open_boundary() const override { return find_open_boundary(*scene_, *media_); }
 
   RenderCounts counts() const override { return counts_; }
 

@@ -102,8 +102,8 @@ MediaAlongRay::MediaAlongRay(const CompiledScene& scene, const Intersector& inte
   if (!accounted) surrounding_.emplace_back(scene.camera_medium, 1);
 }
 
-std::vector<std::pair<int, int>> MediaAlongRay::counts_at(vec3 p) const {
-  const Ray ray{p, normalize(vec3(0.577f, 0.591f, 0.563f)), far_away};  // a direction along no symmetry
+std::vector<std::pair<int, int>> MediaAlongRay::counts_at(vec3 p, vec3 direction) const {
+  const Ray ray{p, normalize(direction), far_away};
   std::vector<Crossing> crossings;
   intersector_.crossings({&ray, 1}, crossings);
   std::vector<std::pair<int, int>> counts;
@@ -122,6 +122,8 @@ std::vector<std::pair<int, int>> MediaAlongRay::counts_at(vec3 p) const {
     add(b.inside, c.inwards ? -1 : 1);
     add(b.outside, c.inwards ? 1 : -1);
   }
+  std::erase_if(counts, [](const auto& c) { return c.second == 0; });
+  std::ranges::sort(counts);
   return counts;
 }
 

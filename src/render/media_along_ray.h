@@ -49,9 +49,9 @@ class MediaAlongRay {
   // Whether any medium surrounds all shapes.
   bool has_surrounding_medium() const { return !surrounding_.empty(); }
 
-  // The media at a point and how many times over each is there, the scene's volumes apart. For messages and for the
-  // camera.
-  std::vector<std::pair<int, int>> counts_at(kernel::vec3 p) const;
+  // The media at a point and how many times over each is there, the scene's volumes apart, in order; counted along a
+  // ray in the direction, which matters only where boundaries are not closed. For the camera and for checks.
+  std::vector<std::pair<int, int>> counts_at(kernel::vec3 p, kernel::vec3 direction = {0.577f, 0.591f, 0.563f}) const;
 
  private:
   std::optional<kernel::vec3> follow(const Ray& ray, int ray_index, std::span<const Crossing> crossings,

@@ -210,6 +210,11 @@ Picture render_contents(const Scene::Contents& contents, const RenderOptions& op
   const CompiledScene scene = compile_scene(description, thread_count(options.threads), warnings);
   const std::unique_ptr<Backend> backend = make_cpu_backend();
   backend->prepare(scene);
+  if (const auto place = backend->open_boundary())
+    warnings.add(
+        fmt::format("warning: near ({:.4g}, {:.4g}, {:.4g}) how much of a medium there is depends on where it is "
+                    "seen from; the shapes that bound it are not closed",
+                    place->x, place->y, place->z));
   const double prepared = watch.seconds();
   Film film(scene.crop.width(), scene.crop.height(), scene.film_response);
 

@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "compile/compile.h"
-#include "render/scenes.h"
+#include "render/agreement_scenes.h"
+#include "render/backend.h"
 
 namespace brume {
 namespace {
@@ -151,6 +152,42 @@ TEST(MediaSets, RaysAlongTheEdgesOfAMeshKeepTheirCount) {
       s.camera.fov = 1e-9;
       EXPECT_NEAR(optical_depth(s), 2 * 0.3, 1e-4) << x << " " << y;
     }
+}
+
+bool has_open_boundary(const SceneDescription& scene) {
+  std::vector<Diagnostic> warnings;
+  const CompiledScene compiled = compile(scene, 1, warnings);
+  const std::unique_ptr<Backend> backend = make_cpu_backend();
+  backend->prepare(compiled);
+  return backend->open_boundary().has_value();
+}
+
+TEST(MediaSets, OpenBoundariesAreFound) {
+  const auto fog = homogeneous_medium("fog", 0.3f, 0);
+  ShapeDescription water = square_facing_z({0, 0, 0}, 3, 0);
+  water.material = DielectricMaterial{};
+  water.inside = "fog";
+  EXPECT_TRUE(has_open_boundary(view({fog}, {water})));
+  ShapeDescription can = sphere_shape({0, 0, 0}, 1, "fog");
+  can.kind = CylinderShape{};
+  EXPECT_TRUE(has_open_boundary(view({fog}, {can})));
+  std::get<CylinderShape>(can.kind).caps = true;
+  EXPECT_FALSE(has_open_boundary(view({fog}, {can})));
+  std::get<CylinderShape>(can.kind).phi_max = 200;
+  EXPECT_TRUE(has_open_boundary(view({fog}, {can})));
+  ShapeDescription box = box_shape(lo, hi, "fog");
+  box.material = DielectricMaterial{};
+  EXPECT_FALSE(has_open_boundary(view({fog}, {box})));
+  std::get<TriangleMeshShape>(box.kind).triangles.pop_back();
+  EXPECT_TRUE(has_open_boundary(view({fog}, {box})));
+}
+
+TEST(MediaSets, NoOpenBoundaryIsFoundWhereNoneIs) {
+  for (auto& [name, scene] : agreement_scenes()) {
+    SceneDescription unlit = scene;
+    unlit.lights = {sky(1)};  // those of the scenes name pictures
+    EXPECT_FALSE(has_open_boundary(unlit)) << name;
+  }
 }
 
 TEST(MediaSets, MoreThanSixteenMediaAreAnError) {
