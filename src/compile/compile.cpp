@@ -68,6 +68,8 @@ void Compiler::add_camera() {
   const double scale = std::tan(camera.fov * std::numbers::pi / 360);
   CompiledCamera& c = compiled_.camera;
   c.world_from_camera = camera.world_from_camera;
+  const Vector3 eye = camera.world_from_camera.point({});
+  check_range({eye, eye}, "the camera", camera.location);
   c.x0 = scale * window[0];
   c.dx = scale * (window[1] - window[0]) / width;
   c.y0 = scale * window[3];

@@ -1,9 +1,11 @@
 // Which shapes stand in the world, and which in objects that instances place there.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
 
 #include "compile/compiler.h"
+#include "intersect/intersector.h"
 
 namespace brume {
 
@@ -29,15 +31,20 @@ void Compiler::add_instances() {
     const auto object = objects.find(instance.object);
     if (object == objects.end())
       error(instance.location, fmt::format("there is no object \"{}\"", instance.object));
-    else if (compiled_.objects[object->second].shape_count > 0)
+    else if (const CompiledObject& o = compiled_.objects[object->second]; o.shape_count > 0) {
+      check_range(bounds(instance.world_from_object, object_bounds(o)), "the instance", instance.location);
       compiled_.instances.push_back({object->second, instance.world_from_object, inverse(instance.world_from_object)});
+    }
   }
 }
 
 Box3 Compiler::object_bounds(const CompiledObject& object) const {
+  return bounds_of(std::span(compiled_.shapes).subspan(object.first_shape, object.shape_count));
+}
+
+Box3 Compiler::bounds_of(std::span<const CompiledShape> shapes) const {
   Box3 box;
-  for (std::uint32_t i = object.first_shape; i < object.first_shape + object.shape_count; ++i) {
-    const CompiledShape& shape = compiled_.shapes[i];
+  for (const CompiledShape& shape : shapes) {
     if (shape.kind == CompiledShape::Kind::quadric) {
       const Box3 b = quadric_box(compiled_.quadrics[shape.index]);
       box.include(b.lo);
@@ -51,6 +58,18 @@ Box3 Compiler::object_bounds(const CompiledObject& object) const {
     }
   }
   return box;
+}
+
+void Compiler::check_range(const Box3& box, std::string_view what, const Location& location) {
+  const auto in_range = [](Vector3 p) {
+    return std::abs(p.x) <= farthest_coordinate && std::abs(p.y) <= farthest_coordinate &&
+           std::abs(p.z) <= farthest_coordinate;
+  };
+  if (in_range(box.lo) && in_range(box.hi)) return;
+  const auto text = [](Vector3 p) { return fmt::format("({:.3g}, {:.3g}, {:.3g})", p.x, p.y, p.z); };
+  const std::string place =
+      box.lo == box.hi ? "is at " + text(box.lo) : "reaches from " + text(box.lo) + " to " + text(box.hi);
+  error(location, fmt::format("{} {}; coordinates may be at most {:g}", what, place, farthest_coordinate));
 }
 
 }  // namespace brume

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <optional>
 
 #include "compile/compile.h"
@@ -101,11 +102,34 @@ CompiledMedium Compiler::make_medium(const MediumDescription& medium) {
   c.grid = density.index;
   const Transform world_from_index = medium.world_from_medium * density.medium_from_index;
   c.index_from_world = inverse(world_from_index);
+  if (c.grid >= 0) check_grid(world_from_index, c, medium);
   const double edge = std::min({length(world_from_index.vector({1, 0, 0})), length(world_from_index.vector({0, 1, 0})),
                                 length(world_from_index.vector({0, 0, 1}))});
   c.default_step = edge / 2;
   if (c.grid >= 0 && !is_zero(c.emission)) add_emission_factor(medium, density, c);
   return c;
+}
+
+// Rays are taken into the grid's coordinates and out of them as floats, and a flight takes up to as many look-ups as
+// the optical depth is at the greatest density.
+void Compiler::check_grid(const Transform& world_from_index, const CompiledMedium& c, const MediumDescription& medium) {
+  constexpr double smallest_edge = 1e-18, greatest_depth = 1e9;
+  const CompiledGrid& grid = compiled_.grids[static_cast<std::size_t>(c.grid)];
+  const Box3 box = bounds(world_from_index, {to_vector(grid.bounds_lo), to_vector(grid.bounds_hi)});
+  const std::string what = fmt::format("the volume of medium \"{}\"", medium.name);
+  check_range(box, what, medium.location);
+  for (const auto& row : c.index_from_world.m)
+    for (std::size_t column = 0; column < 3; ++column)
+      if (!(std::abs(row[column]) <= 1 / smallest_edge))
+        return error(
+            medium.location,
+            fmt::format("{} has voxels that are too small or too flat: edges and heights must be at least {:g}", what,
+                        smallest_edge));
+  const double depth =
+      static_cast<double>(max_value(c.sigma_t)) * static_cast<double>(grid.max_density) * length(box.hi - box.lo);
+  if (!(depth <= greatest_depth))
+    error(medium.location, fmt::format("{} is too dense: its optical depth is up to {:.3g}; it must be at most {:g}",
+                                       what, depth, greatest_depth));
 }
 
 template <class Load>

@@ -148,6 +148,7 @@ void Compiler::add_shape(const ShapeDescription& shape) {
   }
   if (compiled.material < 0 && compiled.boundary < 0) return;  // nothing to see or to enter
   std::vector<CompiledShape> parts = add_geometry(shape);
+  if (!parts.empty()) check_range(bounds_of(parts), "the shape", shape.location);
   for (CompiledShape& part : parts) {
     part.material = compiled.material;
     part.boundary = compiled.boundary;

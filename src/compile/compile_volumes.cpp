@@ -11,10 +11,6 @@ namespace brume {
 
 namespace {
 
-Vector3 to_vector(const std::array<float, 3>& p) {
-  return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
-}
-
 std::array<float, 3> to_float(Vector3 v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }

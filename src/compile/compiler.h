@@ -2,7 +2,9 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -11,6 +13,10 @@
 #include "scene/description.h"
 
 namespace brume {
+
+inline Vector3 to_vector(const std::array<float, 3>& p) {
+  return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+}
 
 // Whether the shape's normal in the world is the negative of what its own coordinates, moved, say.
 bool flips_normal(const ShapeDescription& shape);
@@ -50,11 +56,16 @@ class Compiler {
   double scene_radius() const;
   // Of the object in its own space.
   Box3 object_bounds(const CompiledObject& object) const;
+  Box3 bounds_of(std::span<const CompiledShape> shapes) const;
+  // An error where the box reaches beyond farthest_coordinate.
+  void check_range(const Box3& box, std::string_view what, const Location& location);
 
   // The index of the medium called `name` in the compiled scene, which is added on first use; no_medium for "" and for
   // names that are not defined (an error).
   std::int32_t medium_index(const std::string& name, const Location& used_at);
   CompiledMedium make_medium(const MediumDescription& medium);
+  // An error where the grid is too large, too small or too dense in the world.
+  void check_grid(const Transform& world_from_index, const CompiledMedium& c, const MediumDescription& medium);
   struct LoadedGrid {
     int index;  // below 0: none
     Transform medium_from_index;

@@ -20,6 +20,13 @@ namespace {
 
 constexpr int packet_size = 16;
 
+// Whether the ray is one that Embree takes; at others it ends the program.
+bool is_valid(const Ray& ray) {
+  const vec3 o = ray.origin, d = ray.direction;
+  const auto fits = [](float x) { return std::abs(x) <= 1.8e18f; };  // false of what is not a number
+  return fits(o.x) && fits(o.y) && fits(o.z) && fits(d.x) && fits(d.y) && fits(d.z) && !std::isnan(ray.t_max);
+}
+
 void set_ray(RTCRay16& r, int i, const Ray& ray, float t_far) {
   r.org_x[i] = ray.origin.x;
   r.org_y[i] = ray.origin.y;
@@ -171,6 +178,7 @@ struct Intersector::Embree {
 
   // The first surface between t_begin and the end of the ray, cut-outs included.
   bool nearest(const Ray& ray, float t_begin, SurfaceHit& hit) const {
+    if (!is_valid(ray)) return false;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRayHit r{};
@@ -299,7 +307,7 @@ void Intersector::occluded(std::span<const Ray> rays, std::span<std::uint8_t> bl
     RTCRay16 packet{};
     for (int i = 0; i < n; ++i) {
       const Ray& ray = rays[first + static_cast<std::size_t>(i)];
-      valid[i] = -1;
+      valid[i] = is_valid(ray) ? -1 : 0;
       set_ray(packet, i, ray, ray.t_max);
     }
     rtcOccluded16(valid, embree_->world.surfaces, &context, &packet);
@@ -325,8 +333,9 @@ void Intersector::crossings(std::span<const Ray> rays, std::vector<Crossing>& fo
     alignas(64) int valid[packet_size] = {};
     RTCRayHit16 packet{};
     for (int i = 0; i < n; ++i) {
-      valid[i] = -1;
-      set_ray(packet.ray, i, rays[first + static_cast<std::size_t>(i)], far_away);
+      const Ray& ray = rays[first + static_cast<std::size_t>(i)];
+      valid[i] = is_valid(ray) ? -1 : 0;
+      set_ray(packet.ray, i, ray, far_away);
       packet.hit.geomID[i] = packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
     rtcIntersect16(valid, embree_->world.boundaries, &context.embree, &packet);

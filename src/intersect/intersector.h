@@ -14,6 +14,9 @@ namespace brume {
 // As far as a ray goes that nothing stops. Finite, so that a coefficient of 0 times it is 0.
 constexpr float far_away = 1e30f;
 
+// What is seen may have coordinates of this magnitude: Embree takes no more than 1.8e18.
+constexpr double farthest_coordinate = 1e18;
+
 // A ray in world space; the direction has unit length, so t is a distance.
 struct Ray {
   kernel::vec3 origin, direction;
@@ -41,6 +44,7 @@ struct Crossing {
   bool inwards = false;  // against the shape's normal
 };
 
+// A ray that is not of finite numbers meets nothing.
 class Intersector {
  public:
   // `scene` must outlive this.

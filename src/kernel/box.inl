@@ -34,12 +34,14 @@ struct BoxSpan {
 
 // The span of [t_begin, t_end] in the box [lo, hi]. The entry lies in the box; rounding may leave the span's other end
 // outside, by no more than one unit (a voxel, in index coordinates) however distant the origin. t_length is off by at
-// most 1e-6 (|t_enter| + t_length), except where that bound of one unit cuts it.
+// most 1e-6 (|t_enter| + t_length), except where that bound of one unit cuts it. A ray that is not of finite numbers
+// misses.
 KERNEL BoxSpan box_span(vec3 origin, vec3 direction, vec3 lo, vec3 hi, F t_begin, F t_end) {
   BoxSpan s;
   F t_enter = t_begin;
   F t_exit = t_end;
-  B hit = box_clip(origin, direction, lo, hi, t_enter, t_exit);
+  F magnitude = abs(origin.x) + abs(origin.y) + abs(origin.z) + abs(direction.x) + abs(direction.y) + abs(direction.z);
+  B hit = both(box_clip(origin, direction, lo, hi, t_enter, t_exit), magnitude < 3e38f);
   s.t_enter = select(hit, t_enter, t_begin);
   s.entry = vec3(min(max(fma(s.t_enter, direction.x, origin.x), lo.x), hi.x),
                  min(max(fma(s.t_enter, direction.y, origin.y), lo.y), hi.y),

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "kernel/scalar.h"
 #include "sanitized.h"
@@ -181,6 +182,17 @@ TEST(BoxClip, OriginOnAPlaneAndParallelToIt) {
     }
   float t_enter = 0, t_exit = 1e30f;
   EXPECT_FALSE(kernel::box_clip(vec3(-1, 1.0000001f, 0.5f), vec3(1, 0, 0), lo, hi, t_enter, t_exit));
+}
+
+// Look-ups along a span trust that it is in the box.
+TEST(BoxSpan, RaysThatAreNotOfFiniteNumbersMiss) {
+  const vec3 lo(-1, -1, -1), hi(1, 1, 1);
+  EXPECT_GT(kernel::box_span({0, 0, -3}, {0, 0, 1}, lo, hi, 0, 1e30f).t_length, 0);
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    EXPECT_EQ(kernel::box_span({bad, 0, -3}, {0, 0, 1}, lo, hi, 0, 1e30f).t_length, 0);
+    EXPECT_EQ(kernel::box_span({0, 0, -3}, {0, bad, 1}, lo, hi, 0, 1e30f).t_length, 0);
+    EXPECT_EQ(kernel::box_span({bad, bad, bad}, {bad, bad, bad}, lo, hi, 0, 1e30f).t_length, 0);
+  }
 }
 
 }  // namespace
