@@ -4,7 +4,6 @@
 #include <nanovdb/util/IO.h>
 #include <nanovdb/util/OpenToNanoVDB.h>
 #include <openvdb/openvdb.h>
-#include <openvdb/tools/LevelSetSphere.h>
 #include <tbb/global_control.h>
 #include <unistd.h>
 
@@ -151,7 +150,9 @@ nanovdb::io::Codec codec(VdbPacking packing) {
 openvdb::GridPtrVec mixed_grids(bool with_density_level_set) {
   openvdb::GridPtrVec grids;
   if (with_density_level_set) {
-    auto sphere = openvdb::tools::createLevelSetSphere<FloatGrid>(4, openvdb::Vec3f(0), 0.5f);
+    auto sphere = FloatGrid::create(1.5f);
+    sphere->tree().setValue(Coord(0, 0, 0), -1);
+    sphere->setGridClass(openvdb::GRID_LEVEL_SET);
     sphere->setName("density");
     grids.push_back(sphere);
   }
