@@ -270,8 +270,9 @@ struct CompiledIntegrator {
 };
 
 struct CompiledScene {
-  int width = 0, height = 0;  // of the whole picture
-  PixelBox crop;              // the pixels of it that are rendered: the film's
+  std::string file = "scene";  // for messages about all of it
+  int width = 0, height = 0;   // of the whole picture
+  PixelBox crop;               // the pixels of it that are rendered: the film's
   int samples_per_pixel = 16;
   std::uint32_t seed = 0;
   SamplerKind sampler = SamplerKind::independent;

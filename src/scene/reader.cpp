@@ -16,6 +16,7 @@ constexpr std::size_t max_nesting = 10000;  // of attribute blocks
 Reader::Reader(Messages& messages) : messages_(messages), tokens_(messages) {}
 
 SceneDescription Reader::read(const std::vector<File>& files) {
+  if (!files.empty()) scene_.file = files.front().name;
   try {
     for (const File& file : files) {
       open(file);
