@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 
 namespace brume {
 
@@ -12,7 +13,7 @@ struct Spectrum {
   std::array<float, channel_count> value{};
   float& operator[](int channel) { return value[static_cast<std::size_t>(channel)]; }
   float operator[](int channel) const { return value[static_cast<std::size_t>(channel)]; }
-  bool operator==(const Spectrum&) const = default;
+  auto operator<=>(const Spectrum&) const = default;
 };
 
 inline Spectrum constant_spectrum(float v) {

@@ -32,6 +32,7 @@ CompiledScene compile(const SceneDescription& scene, int threads, std::vector<Di
 }
 
 CompiledScene Compiler::run(std::vector<Diagnostic>& warnings) {
+  compiled_.file = scene_.file;
   compiled_.width = scene_.film.width;
   compiled_.height = scene_.film.height;
   compiled_.crop = cropped_pixels(scene_.film);

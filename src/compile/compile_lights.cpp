@@ -113,10 +113,19 @@ CompiledPortal compile_portal(const std::array<Vector3, 4>& corners) {
   return portal;
 }
 
-// The area of a quadric in the world. The affine map enlarges a piece with the unit normal n by |det M| |M^-T n|; the
-// midpoint rule over a turn is good for a smooth periodic function.
+// Whether the map makes lengths in all directions longer alike: its columns are at right angles and of one length.
+bool is_similarity(const Transform& t) {
+  const Vector3 x = t.vector({1, 0, 0}), y = t.vector({0, 1, 0}), z = t.vector({0, 0, 1});
+  const double square = dot(x, x);
+  const auto is_small = [&](double v) { return std::abs(v) < 1e-9 * square; };
+  return is_small(dot(x, y)) && is_small(dot(y, z)) && is_small(dot(z, x)) && is_small(dot(y, y) - square) &&
+         is_small(dot(z, z) - square);
+}
+
+// The area of a quadric in the world. The affine map enlarges a piece with the unit normal n by |det M| |M^-T n|, which
+// a similarity does everywhere alike; the midpoint rule over a turn is good for a smooth periodic function.
 double world_area(const CompiledQuadric& q) {
-  constexpr int steps = 256;
+  const int steps = q.kind != CompiledQuadric::Kind::saddle && is_similarity(q.world_from_object) ? 1 : 256;
   const double determinant = std::abs(q.world_from_object.determinant());
   const auto growth = [&](Vector3 n) { return determinant * length(transposed(q.object_from_world, n)); };
   if (q.kind == CompiledQuadric::Kind::disk)
@@ -129,15 +138,16 @@ double world_area(const CompiledQuadric& q) {
   }
   const bool sphere = q.kind == CompiledQuadric::Kind::sphere;
   const double lowest = sphere ? q.z_min : 0, height = sphere ? q.z_max - q.z_min : 1;
+  const int z_steps = sphere ? steps : 1;
   double sum = 0;
   for (int i = 0; i < steps; ++i) {
-    const double phi = q.phi_max * (i + 0.5) / steps;
-    for (int j = 0; j < steps; ++j) {
-      const double z = sphere ? lowest + height * (j + 0.5) / steps : 0, ring = std::sqrt(1 - z * z);
-      sum += growth({ring * std::cos(phi), ring * std::sin(phi), z});
+    const double phi = q.phi_max * (i + 0.5) / steps, x = std::cos(phi), y = std::sin(phi);
+    for (int j = 0; j < z_steps; ++j) {
+      const double z = sphere ? lowest + height * (j + 0.5) / z_steps : 0, ring = std::sqrt(1 - z * z);
+      sum += growth({ring * x, ring * y, z});
     }
   }
-  return sum / (steps * steps) * q.phi_max * height;
+  return sum / (steps * z_steps) * q.phi_max * height;
 }
 
 LightCone cone_of(const SpotLight& spot) {

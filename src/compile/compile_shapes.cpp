@@ -62,6 +62,16 @@ float internal_reflectance(const CompiledMaterial& m) {
   return static_cast<float>(1 - let_in / (eta * eta));
 }
 
+// What follows from a coat's index of refraction and its roughness; it takes milliseconds.
+void add_coat_tables(CompiledMaterial& m) {
+  constexpr auto intervals = static_cast<float>(std::tuple_size_v<decltype(m.coat_transmittance)> - 1);
+  if (m.alpha > 0)
+    for (std::size_t i = 0; i < m.coat_transmittance.size(); ++i)
+      m.coat_transmittance[i] =
+          rough_transmittance(std::max(1e-3f, static_cast<float>(i) / intervals), m.refractive_index, m.alpha);
+  m.internal_reflectance = internal_reflectance(m);
+}
+
 // Part of the shape, as the image of a part of a unit quadric (see CompiledQuadric).
 CompiledQuadric quadric_of(const ShapeDescription& shape, CompiledQuadric::Kind kind, const Transform& object_from_unit,
                            double phi_max) {
@@ -304,12 +314,6 @@ CompiledMaterial Compiler::compile_material(const MaterialDescription& material)
     set_ambient(coated->reflectance);
     c.refractive_index = coated->eta;
     c.alpha = coated->alpha;
-    constexpr auto intervals = static_cast<float>(std::tuple_size_v<decltype(c.coat_transmittance)> - 1);
-    if (c.alpha > 0)
-      for (std::size_t i = 0; i < c.coat_transmittance.size(); ++i)
-        c.coat_transmittance[i] =
-            rough_transmittance(std::max(1e-3f, static_cast<float>(i) / intervals), c.refractive_index, c.alpha);
-    c.internal_reflectance = internal_reflectance(c);
   }
   return c;
 }
@@ -318,10 +322,12 @@ std::int32_t Compiler::material_index(const MaterialDescription& material, const
   CompiledMaterial c = compile_material(material);
   if (relief.displacement >= 0) c.displacement = textures_.at(static_cast<std::size_t>(relief.displacement));
   if (!relief.normal_map.empty()) c.normal_map = normal_map(relief);
-  const auto same = std::find(compiled_.materials.begin(), compiled_.materials.end(), c);
-  if (same != compiled_.materials.end()) return static_cast<std::int32_t>(same - compiled_.materials.begin());
-  compiled_.materials.push_back(c);
-  return static_cast<std::int32_t>(compiled_.materials.size() - 1);
+  const auto [known, is_new] = materials_.try_emplace(c, static_cast<std::int32_t>(compiled_.materials.size()));
+  if (is_new) {
+    if (c.kind == CompiledMaterial::Kind::coated_diffuse) add_coat_tables(c);
+    compiled_.materials.push_back(c);
+  }
+  return known->second;
 }
 
 }  // namespace brume

@@ -102,6 +102,7 @@ class Compiler {
   std::int32_t material_index(const MaterialDescription& material, const Relief& relief);
   // A medium that fills the inside of the shape with these parts beside what is there, and does nothing but absorb.
   void add_absorption(std::vector<CompiledShape> parts, const Spectrum& sigma_a);
+  // All but the tables of a coat.
   CompiledMaterial compile_material(const MaterialDescription& material) const;
 
   void add_textures();
@@ -130,6 +131,7 @@ class Compiler {
   };
   std::vector<LightArea> light_areas_;                            // of the area lights
   std::size_t first_world_vertex_ = 0, first_world_quadric_ = 0;  // those before belong to objects
+  std::map<CompiledMaterial, std::int32_t> materials_;            // as they are before add_coat_tables
   std::vector<std::int32_t> textures_;  // in the compiled scene, by the index of their description
   std::map<std::tuple<std::string, double, bool>, std::int32_t> images_;  // by file, gamma and whether of numbers
   std::map<std::string, LightImage> light_images_;                        // by file

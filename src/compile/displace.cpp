@@ -31,32 +31,62 @@ class Middles {
   std::unordered_map<std::uint64_t, std::uint32_t> middles_;
 };
 
-// Halves triangles at their longest edges; false where there come to be too many. Whether an edge is split, and where,
-// follows from its ends alone, so triangles that share it go on sharing all of it. Source: M.-C. Rivara, "Algorithms
-// for refining triangular grids suitable for adaptive and multigrid techniques", IJNME 20(4), 1984.
-bool split(TriangleMeshShape& mesh, const Transform& world_from_object, double edge_length, std::size_t max_triangles) {
-  const auto edge = [&](std::uint32_t a, std::uint32_t b) {
-    return length(world_from_object.vector(mesh.positions[b] - mesh.positions[a]));
-  };
+// The number of the longest of a triangle's edges, the first from its first to its second corner; none where no edge is
+// longer than edge_length.
+std::optional<std::ptrdiff_t> edge_to_split(const std::array<Vector3, 3>& t, const Transform& world_from_object,
+                                            double edge_length) {
+  const auto edge = [&](Vector3 a, Vector3 b) { return length(world_from_object.vector(b - a)); };
+  const std::array edges{edge(t[0], t[1]), edge(t[1], t[2]), edge(t[2], t[0])};
+  const auto longest = std::max_element(edges.begin(), edges.end());
+  if (!(*longest > edge_length)) return std::nullopt;
+  return longest - edges.begin();
+}
+
+std::array<Vector3, 3> corners(const TriangleMeshShape& mesh, const std::array<std::uint32_t, 3>& t) {
+  return {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
+}
+
+// Whether splitting ends with at most max_triangles: counted first, since many take much memory.
+bool can_split(const TriangleMeshShape& mesh, const Transform& world_from_object, double edge_length,
+               std::size_t max_triangles) {
+  std::size_t count = mesh.triangles.size();
+  std::vector<std::array<Vector3, 3>> waiting;
+  for (const auto& triangle : mesh.triangles)
+    for (waiting.push_back(corners(mesh, triangle)); !waiting.empty();) {
+      std::array<Vector3, 3> t = waiting.back();
+      waiting.pop_back();
+      const auto longest = edge_to_split(t, world_from_object, edge_length);
+      if (!longest) continue;
+      std::rotate(t.begin(), t.begin() + *longest, t.end());
+      const Vector3 middle = 0.5 * (t[0] + t[1]);
+      const bool has_middle = middle != t[0] && middle != t[1];  // else there are no shorter edges
+      if (++count > max_triangles || !has_middle) return false;
+      waiting.push_back({t[0], middle, t[2]});
+      waiting.push_back({middle, t[1], t[2]});
+    }
+  return true;
+}
+
+// Halves triangles at their longest edges. Whether an edge is split, and where, follows from its ends alone, so
+// triangles that share it go on sharing all of it. Source: M.-C. Rivara, "Algorithms for refining triangular grids
+// suitable for adaptive and multigrid techniques", IJNME 20(4), 1984.
+void split(TriangleMeshShape& mesh, const Transform& world_from_object, double edge_length) {
   Middles middles(mesh);
   std::vector<std::array<std::uint32_t, 3>> waiting;
   waiting.swap(mesh.triangles);
   while (!waiting.empty()) {
     std::array<std::uint32_t, 3> t = waiting.back();
-    const std::array edges{edge(t[0], t[1]), edge(t[1], t[2]), edge(t[2], t[0])};
-    const auto longest = std::max_element(edges.begin(), edges.end());
-    if (!(*longest > edge_length)) {
+    const auto longest = edge_to_split(corners(mesh, t), world_from_object, edge_length);
+    if (!longest) {
       mesh.triangles.push_back(t);
       waiting.pop_back();
       continue;
     }
-    if (waiting.size() + mesh.triangles.size() >= max_triangles) return false;
-    std::rotate(t.begin(), t.begin() + (longest - edges.begin()), t.end());
+    std::rotate(t.begin(), t.begin() + *longest, t.end());
     const std::uint32_t middle = middles.between(t[0], t[1]);
     waiting.back() = {t[0], middle, t[2]};
     waiting.push_back({middle, t[1], t[2]});
   }
-  return true;
 }
 
 std::tuple<double, double, double> in_order(Vector3 v) { return {v.x, v.y, v.z}; }
@@ -94,9 +124,10 @@ std::vector<Vector3> mean_normals(const TriangleMeshShape& mesh, const std::vect
 
 std::optional<TriangleMeshShape> displaced(TriangleMeshShape mesh, const Transform& world_from_object,
                                            double edge_length, const Displace& displace, std::size_t max_triangles) {
+  if (!can_split(mesh, world_from_object, edge_length, max_triangles)) return std::nullopt;
   if (mesh.normals.empty()) mesh.normals = mean_normals(mesh, first_alike(mesh));
   for (Vector3& n : mesh.normals) n = normalize(n);
-  if (!split(mesh, world_from_object, edge_length, max_triangles)) return std::nullopt;
+  split(mesh, world_from_object, edge_length);
   const std::vector<std::uint32_t> first = first_alike(mesh);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
     mesh.positions[i] = mesh.positions[i] + displace(mesh.positions[i], mesh.uv[i]) * mesh.normals[i];

@@ -126,7 +126,7 @@ struct CompiledMaterial {
   float internal_reflectance = 0;  // coated_diffuse: of the coat, for diffuse light from its inside
   // coated_diffuse with alpha above 0: how much light the coat lets in, by its cosine: 0, 1 / 32, 2 / 32, ..., 1.
   std::array<float, 33> coat_transmittance{};
-  bool operator==(const CompiledMaterial&) const = default;
+  auto operator<=>(const CompiledMaterial&) const = default;
 };
 inline bool is_textured(const CompiledMaterial& m) { return m.diffuse_texture >= 0 || m.ambient_texture >= 0; }
 inline bool has_relief(const CompiledMaterial& m) { return m.displacement >= 0 || m.normal_map >= 0; }
@@ -270,8 +270,9 @@ struct CompiledIntegrator {
 };
 
 struct CompiledScene {
-  int width = 0, height = 0;  // of the whole picture
-  PixelBox crop;              // the pixels of it that are rendered: the film's
+  std::string file = "scene";  // for messages about all of it
+  int width = 0, height = 0;   // of the whole picture
+  PixelBox crop;               // the pixels of it that are rendered: the film's
   int samples_per_pixel = 16;
   std::uint32_t seed = 0;
   SamplerKind sampler = SamplerKind::independent;

@@ -28,6 +28,10 @@ class Film {
  public:
   // `response` is what it makes of radiance.
   Film(int width, int height, const FilmResponse& response = {});
+  // How much memory a film of this size takes.
+  static std::int64_t bytes(int width, int height) {
+    return std::int64_t{width} * height * static_cast<std::int64_t>(sizeof(Pixel));
+  }
   int width() const { return width_; }
   int height() const { return height_; }
 

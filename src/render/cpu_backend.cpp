@@ -142,9 +142,9 @@ class CpuBackend : public Backend {
   }
 
  private:
-  static void check(const std::optional<kernel::vec3>& too_many_media) {
+  void check(const std::optional<kernel::vec3>& too_many_media) const {
     if (const auto& p = too_many_media)
-      throw InputError("scene",
+      throw InputError(scene_->file,
                        fmt::format("more than {} media overlap at ({}, {}, {})", max_active_media, p->x, p->y, p->z));
   }
 

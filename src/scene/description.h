@@ -398,6 +398,7 @@ struct SceneDescription {
   SceneDescription& operator=(SceneDescription&&) noexcept;
   ~SceneDescription();
 
+  std::string file = "scene";  // the first that it was read from, for messages about all of it
   FilmDescription film;
   SamplerDescription sampler;
   PixelFilter filter;

@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t max_include_depth = 64;
 constexpr int max_inclusions = 10000;  // in all: files that include each other twice would never end
+constexpr std::size_t max_repeated_text = std::size_t{64} << 20;  // bytes, of files that are included again
 
 }  // namespace
 
@@ -44,6 +45,10 @@ void Reader::push_file() {
     messages_.fail(place, fmt::format("files are included more than {} deep", max_include_depth));
   if (++inclusions_ > max_inclusions)
     messages_.fail(place, fmt::format("more than {} files are included", max_inclusions));
+  if (!included_.insert(&source).second) repeated_text_ += source.text.size();
+  if (repeated_text_ > max_repeated_text)
+    messages_.fail(place,
+                   fmt::format("files that are included again have more than {} bytes in all", max_repeated_text));
   tokens_.push(source);
 }
 

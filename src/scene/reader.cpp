@@ -10,12 +10,14 @@ namespace brume {
 namespace {
 
 constexpr std::size_t max_nesting = 10000;  // of attribute blocks
+constexpr std::size_t max_defaults = 256;   // of a kind of thing: each thing of the kind looks through them
 
 }  // namespace
 
 Reader::Reader(Messages& messages) : messages_(messages), tokens_(messages) {}
 
 SceneDescription Reader::read(const std::vector<File>& files) {
+  if (!files.empty()) scene_.file = files.front().name;
   try {
     for (const File& file : files) {
       open(file);
@@ -169,13 +171,15 @@ void Reader::attribute() {
                                "\"texture\"",
                                printable(target)));
   std::vector<Parameter> added = read_list();
-  auto& defaults = state_.defaults[target];
-  std::vector<Parameter> all = defaults ? *defaults : std::vector<Parameter>();
+  const auto before = state_.defaults.find(target);
+  std::vector<Parameter> all = before != state_.defaults.end() ? *before->second : std::vector<Parameter>();
   for (Parameter& p : added) {
     std::erase_if(all, [&](const Parameter& old) { return old.name == p.name; });
+    if (all.size() >= max_defaults)
+      messages_.fail(p.place, fmt::format("more than {} parameters are set for \"{}\"", max_defaults, target));
     all.push_back(std::move(p));
   }
-  defaults = std::make_shared<const std::vector<Parameter>>(std::move(all));
+  state_.defaults[target] = std::make_shared<const std::vector<Parameter>>(std::move(all));
 }
 
 void Reader::refused() { messages_.fail(directive_.place, fmt::format("{} is not supported yet", directive_.text)); }

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -170,6 +171,8 @@ class Reader {
   std::map<std::string, std::string> texts_;  // of included files, by name
   std::map<std::string, const Source*> sources_by_name_;
   int inclusions_ = 0;
+  std::set<const Source*> included_;
+  std::size_t repeated_text_ = 0;  // bytes, of all inclusions but the first of each file
 
   SceneDescription scene_;
   GraphicsState state_;

@@ -54,6 +54,15 @@ CompiledScene compile_scene(const SceneDescription& description, int threads, Wa
   }
 }
 
+void check_film(const SceneDescription& description) {
+  const PixelBox crop = cropped_pixels(description.film);
+  const std::int64_t bytes = Film::bytes(crop.width(), crop.height());
+  if (!can_hold(bytes))
+    throw InputError(description.file,
+                     fmt::format("rendering {} x {} pixels takes {} bytes, more than half of this machine's memory",
+                                 crop.width(), crop.height(), bytes));
+}
+
 constexpr double partial_picture_interval = 3;  // seconds
 
 // Adds samples to a film, pass by pass, until there are enough or the time is used.
@@ -207,6 +216,7 @@ Picture render_contents(const Scene::Contents& contents, const RenderOptions& op
   const int samples = options.seconds > 0 ? options.max_samples : description.sampler.pixel_samples;
   if (options.variance && samples < 2)
     fail("the variance can be estimated from two samples per pixel on, not from one");
+  check_film(description);
   const CompiledScene scene = compile_scene(description, thread_count(options.threads), warnings);
   const std::unique_ptr<Backend> backend = make_cpu_backend();
   backend->prepare(scene);

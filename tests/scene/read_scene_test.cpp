@@ -274,6 +274,33 @@ TEST(ReadScene, FilesThatIncludeEachOtherTwiceEnd) {
   EXPECT_THROW(read_scene_text("WorldBegin Include \"bomb0.inc\"", "t", folder, warnings), InputError);
 }
 
+// A file that comes again and again stands for more text than any file holds.
+TEST(ReadScene, TextThatIsIncludedAgainIsBounded) {
+  const std::string folder = testing::TempDir(), include = "Include \"blank.inc\"\n";
+  std::ofstream(folder + "/blank.inc") << std::string(std::size_t{1} << 24, '\n');
+  std::string text = "WorldBegin\n" + include;
+  for (int i = 0; i < 4; ++i) text += include;
+  std::vector<Diagnostic> warnings;
+  EXPECT_NO_THROW(read_scene_text(text, "t", folder, warnings));
+  EXPECT_THROW(read_scene_text(text + include, "t", folder, warnings), InputError);
+}
+
+TEST(ReadScene, DefaultsAreBounded) {
+  const auto defaults = [](int count) {
+    std::string text = "Attribute \"shape\"";
+    for (int i = 0; i < count; ++i) text += " \"float p" + std::to_string(i) + "\" 1";
+    return text;
+  };
+  const std::string world = "WorldBegin ", again = " Attribute \"shape\" \"float p0\" 2", ball = " Shape \"sphere\"";
+  EXPECT_TRUE(errors_of(world + defaults(256) + again + ball).empty());
+  const auto is_refused = [](const std::string& text) {
+    const std::vector<std::string> errors = errors_of(text);
+    return errors.size() == 1 && errors[0].starts_with("more than 256 parameters are set for \"shape\"");
+  };
+  EXPECT_TRUE(is_refused(world + defaults(257) + ball));
+  EXPECT_TRUE(is_refused(world + defaults(256) + " Attribute \"shape\" \"float q\" 1" + ball));
+}
+
 TEST(ReadScene, DeepNestingIsRefused) {
   std::string text = "WorldBegin\n";
   for (int i = 0; i < 20000; ++i) text += "AttributeBegin\n";
