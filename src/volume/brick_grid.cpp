@@ -43,7 +43,7 @@ BrickGridBuilder::BrickGridBuilder(std::array<int, 3> voxels, Storage storage) {
     if (voxels[axis] < 1) throw std::length_error("a grid must have at least one voxel along each axis");
     grid_.bricks[axis] = (voxels[axis] - 1) / brick_edge + 1;
     const std::size_t row = static_cast<std::size_t>(grid_.bricks[axis]) + 2;
-    if (row > max_brick_words / table_words) throw std::length_error("the grid's table of bricks is too large");
+    if (row > max_table_words / table_words) throw std::length_error("the grid's table of bricks is too large");
     table_words *= row;
   }
   grid_.table.assign(table_words, 0);
@@ -124,6 +124,8 @@ BrickGrid BrickGridBuilder::finish() {
   grid_.max_value = some_unset ? std::max(0.0f, max_) : max_;
   grid_.mean_value = sum_ / static_cast<double>(voxels);
   grid_.words.shrink_to_fit();
+  for (const auto& [value, entry] : constant_bricks_) grid_.constant_bricks.push_back(entry.first_word);
+  std::ranges::sort(grid_.constant_bricks);
   mark_gaps(grid_);
   return std::move(grid_);
 }

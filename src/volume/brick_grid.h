@@ -20,7 +20,8 @@ enum class Storage { u8 = 8, u16 = 16, f32 = 32 };
 constexpr int brick_edge = 8;
 constexpr int brick_voxels = brick_edge * brick_edge * brick_edge;
 
-constexpr std::size_t max_brick_words = std::size_t{1} << 31;  // of all bricks, and of the table
+constexpr std::size_t max_brick_words = std::size_t{1} << 31;  // of all bricks
+constexpr std::size_t max_table_words = std::size_t{1} << 27;  // 3250^3 voxels; all are gone through, empty or not
 
 // A brick in the table: its first word, and how its levels become values (kernel/lookup.inl).
 struct BrickEntry {
@@ -40,6 +41,7 @@ struct BrickGrid {
   bool bordered = false;             // volume/brick_borders.h
   std::vector<std::uint32_t> table;  // (bricks + 2) along each axis, x fastest: the two words of a BrickEntry each
   std::vector<std::uint32_t> words;  // the bricks, the shared empty one first
+  std::vector<std::uint32_t> constant_bricks;  // the first words of those of one value, which are shared, in order
 
   // Of the values given: over all voxels of the array.
   float min_value = 0, max_value = 0;
@@ -54,7 +56,7 @@ struct BrickGrid {
 class BrickGridBuilder {
  public:
   // An array of nx x ny x nz voxels, at least 1 along each axis, all 0. This and set_brick throw std::length_error
-  // where the grid would need more than max_brick_words.
+  // where the grid would need more than max_brick_words or max_table_words.
   BrickGridBuilder(std::array<int, 3> voxels, Storage storage);
 
   // Sets the brick that begins at voxel 8 (bx, by, bz) to 512 values, x fastest. Each brick at most once. Values beyond

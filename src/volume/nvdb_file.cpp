@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
+#include "base/memory.h"
 #include "volume/decompress.h"
 
 namespace brume {
@@ -48,6 +50,10 @@ NvdbGrid read_entry(ByteReader& reader, std::uint64_t& file_size) {
 }
 
 void check_size(const ByteReader& reader, const NvdbGrid& grid) {
+  if (grid.memory_size > std::numeric_limits<std::int64_t>::max() ||
+      !can_hold(static_cast<std::int64_t>(grid.memory_size)))
+    reader.fail(fmt::format("grid \"{}\" is said to unpack to {} bytes, more than half of this machine's memory",
+                            grid.name, grid.memory_size));
   const std::uint64_t ratio = grid.codec == NvdbCodec::none ? 1 : largest_ratio;
   if (grid.memory_size < sizeof(nanovdb::GridData) || grid.memory_size / ratio > grid.stored.size()) {
     reader.fail(fmt::format("grid \"{}\" is said to unpack from {} bytes to {}, which cannot be", grid.name,

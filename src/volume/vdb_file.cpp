@@ -55,6 +55,9 @@ VdbGrid read_descriptor(ByteReader& reader) {
   grid.position = reader.get<std::uint64_t>();
   reader.take(8);  // position of the voxels, which follow the tree's nodes
   const auto end = reader.get<std::uint64_t>();
+  // Each grid's own, so that no two are read from the same place.
+  if (grid.position < reader.position() || grid.position > end)
+    reader.fail(fmt::format("grid \"{}\" does not follow its description", grid.name));
   reader.seek(end);
   return grid;
 }
@@ -101,7 +104,11 @@ void read_map(ByteReader& reader, VdbGrid& grid) {
 std::vector<VdbGrid> read_vdb_directory(ByteReader& reader) {
   read_header(reader);
   read_metadata(reader);
+  // Grids are read one by one, some of them several times.
+  constexpr std::uint32_t most_grids = 1000;
   const auto count = reader.get<std::uint32_t>();
+  if (count > most_grids)
+    reader.fail(fmt::format("it is said to hold {} grids; at most {} are read", count, most_grids));
   std::vector<VdbGrid> grids;
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::uint64_t before = reader.position();

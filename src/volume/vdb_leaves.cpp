@@ -34,7 +34,8 @@ BrickGridBuilder make_builder(const std::string& file, const std::string& grid_n
     table_words *= static_cast<double>(bricks + 2);
     voxels[axis] = static_cast<int>(std::min<std::int64_t>(extent, std::numeric_limits<int>::max()));
   }
-  const double allowed = std::min(0x1p31, 0x1p22 + 64 * static_cast<double>(file_bytes));
+  const double allowed =
+      std::min(static_cast<double>(max_table_words / 2), 0x1p22 + 64 * static_cast<double>(file_bytes));
   if (table_words > allowed) {
     throw InputError(file, fmt::format("grid \"{}\" spans {} x {} x {} voxels, too many for a file of {} bytes",
                                        grid_name, voxels[0], voxels[1], voxels[2], file_bytes));
