@@ -122,20 +122,28 @@ bool is_similarity(const Transform& t) {
          is_small(dot(z, z) - square);
 }
 
+// Point i of the n of Gauss' rule of two points in each of n / 2 equal parts of 0 to 1. All have the same weight.
+double gauss_point(int i, int n) {
+  const int part = i / 2;
+  const double offset = (i % 2 - 0.5) / std::numbers::sqrt3;  // from its middle
+  return 2 * (part + 0.5 + offset) / n;
+}
+
 // The area of a quadric in the world. The affine map enlarges a piece with the unit normal n by |det M| |M^-T n|, which
 // a similarity does everywhere alike; the midpoint rule over a turn is good for a smooth periodic function.
 double world_area(const CompiledQuadric& q) {
-  const int steps = q.kind != CompiledQuadric::Kind::saddle && is_similarity(q.world_from_object) ? 1 : 256;
   const double determinant = std::abs(q.world_from_object.determinant());
   const auto growth = [&](Vector3 n) { return determinant * length(transposed(q.object_from_world, n)); };
   if (q.kind == CompiledQuadric::Kind::disk)
     return growth({0, 0, 1}) * q.phi_max / 2 * (1 - q.inner_radius * q.inner_radius);
   if (q.kind == CompiledQuadric::Kind::saddle) {
+    constexpr int points = 32;
     double sum = 0;
-    for (int i = 0; i < steps; ++i)
-      for (int j = 0; j < steps; ++j) sum += growth({-(j + 0.5) / steps, -(i + 0.5) / steps, 1});
-    return sum / (steps * steps);
+    for (int i = 0; i < points; ++i)
+      for (int j = 0; j < points; ++j) sum += growth({-gauss_point(j, points), -gauss_point(i, points), 1});
+    return sum / (points * points);
   }
+  const int steps = is_similarity(q.world_from_object) ? 1 : 256;
   const bool sphere = q.kind == CompiledQuadric::Kind::sphere;
   const double lowest = sphere ? q.z_min : 0, height = sphere ? q.z_max - q.z_min : 1;
   const int z_steps = sphere ? steps : 1;

@@ -333,6 +333,7 @@ TEST(ReadScene, SeveralFilesAreOneScene) {
   std::ofstream(folder + "/b/lamp.inc") << "LightSource \"point\"";
   std::vector<Diagnostic> warnings;
   const SceneDescription s = read_scene_files({folder + "/a/film.pbrt", folder + "/b/world.pbrt"}, warnings);
+  EXPECT_EQ(s.file, folder + "/a/film.pbrt");
   EXPECT_EQ(s.film.width, 7);
   ASSERT_EQ(s.lights.size(), 1u);
   EXPECT_EQ(kind<PointLight>(s.lights[0]).from, (Vector3{1, 2, 3}));
