@@ -46,6 +46,18 @@ Storage storage_of(const MediumDescription& medium) { return static_cast<Storage
 constexpr std::size_t majorant_bytes = 160 * 1024;
 constexpr int finest_majorant_edge = 4;  // voxels
 
+float largest_step(const BrickGrid& grid) {
+  float largest = 0;
+  for (std::size_t i = 0; 2 * i < grid.table.size(); ++i) largest = std::max(largest, grid.entry(i).scale());
+  return largest;
+}
+
+// Adds to the bounds of what is not empty.
+void raise(std::vector<std::uint32_t>& majorants, float by) {
+  for (std::uint32_t& word : majorants)
+    if (word != 0) word = std::bit_cast<std::uint32_t>(std::bit_cast<float>(word) + by);
+}
+
 }  // namespace
 
 CompiledGrid compile_grid(VolumeGrid grid, bool linear, BrickLayout layout, int threads) {
@@ -63,10 +75,13 @@ CompiledGrid compile_grid(VolumeGrid grid, bool linear, BrickLayout layout, int 
   c.majorant_layer = c.majorant_row * static_cast<std::uint32_t>(majorants.size[1]);
   c.majorant_cells_per_voxel = 1 / static_cast<float>(majorants.edge);
   c.majorants = std::move(majorants.cells);
+  if (layout == BrickLayout::bordered) {
+    grid.bricks = add_borders(std::move(grid.bricks), threads);
+    raise(c.majorants, largest_step(grid.bricks));  // values may have been rounded up
+  }
+  c.bordered = grid.bricks.bordered ? 1 : 0;
   // Not what the grid was made of: a stored value may be half a step above. Floats from 0 up order as their bits do.
   c.max_density = std::bit_cast<float>(*std::max_element(c.majorants.begin(), c.majorants.end()));
-  if (layout == BrickLayout::bordered) grid.bricks = add_borders(std::move(grid.bricks), threads);
-  c.bordered = grid.bricks.bordered ? 1 : 0;
   c.table = std::move(grid.bricks.table);
   c.words = std::move(grid.bricks.words);
   return c;
