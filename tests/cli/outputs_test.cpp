@@ -244,6 +244,29 @@ TEST_F(Outputs, BadOutputsAreRefusedBeforeRendering) {
   EXPECT_THAT(folder_.names(), ElementsAre("a.pbrt", "folder.pfm"));
 }
 
+TEST_F(Outputs, NoInputIsReplaced) {
+  const std::string scene = bytes("a.pbrt");
+  std::filesystem::create_symlink("a.pbrt", folder_.file("link.pbrt"));
+  const auto expect_refused = [&](const std::vector<std::string>& arguments, const std::string& message) {
+    const Outcome outcome = run(folder_.path(), arguments);
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.error, HasSubstr(message));
+    EXPECT_EQ(bytes("a.pbrt"), scene);
+  };
+  for (const char* output : {"a.pbrt", "./a.pbrt", "link.pbrt"}) {
+    const std::string is_read = std::string(output) + " is read, so it cannot be an output";
+    expect_refused({"a.pbrt", "--write-scene", output}, is_read);
+    expect_refused({"a.pbrt", "-o", "b.pfm", "--stats-json", output}, is_read);
+  }
+  expect_refused({"a.pbrt", "--write-scene", "b.vdb"}, "--write-scene: b.vdb is not a .pbrt file");
+  expect_refused({"a.pbrt", "-o", "b.pfm", "-o", "./b.pfm"}, "./b.pfm is given for two outputs");
+  expect_refused({"a.pbrt", "--write-scene", "b.pbrt", "--stats-json", folder_.file("b.pbrt")},
+                 "b.pbrt is given for two outputs");
+  // The scene's own name for its picture.
+  expect_refused({"a.pbrt", "--stats-json", "named by scene.pfm"}, "is given for two outputs");
+  EXPECT_THAT(folder_.names(), ElementsAre("a.pbrt", "link.pbrt"));
+}
+
 // The limit on a file's size, which programs inherit, stands in for a full disk: writing fails after some bytes, when
 // all is rendered.
 TEST_F(Outputs, AFullDiskLeavesNothingBehind) {
