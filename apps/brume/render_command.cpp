@@ -231,15 +231,27 @@ std::optional<brume::Picture> render(const Arguments& a, const brume::Scene& sce
   return picture;
 }
 
+// Writes every output that can be written: where one disk is full, the picture is not lost on the others.
 int save(const Arguments& a, const brume::Picture& picture, const std::vector<std::string>& outputs) {
-  for (const std::string& output : outputs) {
-    picture.write(output, a.exposure);
-    say(a, output + ": " + std::to_string(picture.width) + " x " + std::to_string(picture.height) + " pixels, " +
-               std::to_string(picture.samples_per_pixel) + " samples per pixel" +
-               (picture.partial ? " at least; partial" : "") + ", " + clock_text(picture.seconds));
-  }
+  bool all_written = true;
+  const auto attempt = [&](const auto& write) {
+    try {
+      write();
+    } catch (const brume::Error& e) {
+      std::fprintf(stderr, "%s\n", e.what());
+      all_written = false;
+    }
+  };
+  for (const std::string& output : outputs)
+    attempt([&] {
+      picture.write(output, a.exposure);
+      say(a, output + ": " + std::to_string(picture.width) + " x " + std::to_string(picture.height) + " pixels, " +
+                 std::to_string(picture.samples_per_pixel) + " samples per pixel" +
+                 (picture.partial ? " at least; partial" : "") + ", " + clock_text(picture.seconds));
+    });
   if (a.stats) std::fputs(picture.statistics.table().c_str(), stderr);
-  if (!a.stats_json.empty()) picture.statistics.write(a.stats_json);
+  if (!a.stats_json.empty()) attempt([&] { picture.statistics.write(a.stats_json); });
+  if (!all_written) return 1;
   return picture.partial ? exit_interrupted : 0;
 }
 

@@ -5,7 +5,6 @@
 #include <sys/resource.h>
 
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 
@@ -275,11 +274,9 @@ TEST_F(Outputs, AFullDiskLeavesNothingBehind) {
     rlimit before{};
     getrlimit(RLIMIT_FSIZE, &before);
     const rlimit small{8192, before.rlim_max};
-    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
     setrlimit(RLIMIT_FSIZE, &small);
     const Outcome outcome = run(folder_.path(), arguments);
     setrlimit(RLIMIT_FSIZE, &before);
-    std::signal(SIGXFSZ, handler);
     EXPECT_EQ(outcome.exit_code, 1);
     return outcome.error;
   };
@@ -289,6 +286,10 @@ TEST_F(Outputs, AFullDiskLeavesNothingBehind) {
             "c.vdb: error: cannot be written: File too large\n");
   EXPECT_EQ(bytes("old.pfm"), "old");
   EXPECT_THAT(folder_.names(), ElementsAre("a.pbrt", "old.pfm"));
+  // What has room is written nevertheless: a .png of these pixels is small.
+  EXPECT_THAT(run_with_a_small_disk({"a.pbrt", "--resolution", "64x48", "-o", "old.pfm", "-o", "b.png"}),
+              HasSubstr("old.pfm: error: cannot be written: File too large\nb.png: 64 x 48 pixels"));
+  EXPECT_THAT(folder_.names(), ElementsAre("a.pbrt", "b.png", "old.pfm"));
 }
 
 TEST_F(Outputs, AFullStandardOutputIsAnError) {
