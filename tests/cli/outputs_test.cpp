@@ -11,6 +11,7 @@
 #include "cli/run_program.h"
 #include "image/image.h"
 #include "image/temporary_folder.h"
+#include "sanitized.h"
 
 namespace brume {
 namespace {
@@ -328,6 +329,16 @@ TEST(Inputs, ScenesComePackedAndFromTheStandardInput) {
   EXPECT_NE(std::system((there + "echo Shape | " + program + " - -o none.pfm 2> error").c_str()), 0);
   EXPECT_THAT(bytes_of(folder.file("error")), HasSubstr("standard input:1:1: error:"));
   EXPECT_THAT(folder.names(), Not(Contains("none.pfm")));
+}
+
+// An eighth of what the process may have.
+TEST(Inputs, AnEndlessStandardInputIsRefused) {
+  if (sanitized) GTEST_SKIP() << "sanitizers take all addresses there are";
+  const TemporaryFolder folder;
+  const std::string program = BRUME_PROGRAM, there = "cd '" + folder.path() + "' && ulimit -v 4000000 && ";
+  EXPECT_NE(std::system((there + "yes '#' | " + program + " - 2> error").c_str()), 0);
+  EXPECT_EQ(bytes_of(folder.file("error")),
+            "standard input: error: has more than 512000000 bytes of text, an eighth of the memory\n");
 }
 
 }  // namespace
