@@ -139,7 +139,8 @@ std::string read_file(const std::string& path) {
   if (!file.is_open()) fail(reason(errno));
 
   // One byte more than the size, so that the end shows without growing once more.
-  std::string bytes(static_cast<std::size_t>(status.st_size) + 1, '\0');
+  const std::size_t expected = static_cast<std::size_t>(status.st_size) + 1;
+  std::string bytes = read_within_memory(path, [&] { return std::string(expected, '\0'); });
   std::size_t size = 0;
   while (const std::size_t got = read_some(path, file.number(), std::span(bytes).subspan(size))) {
     size += got;

@@ -55,6 +55,8 @@ std::string unpacked(const std::string& name, std::string bytes, std::size_t lar
   return text.joined();
 }
 
-std::string read_file_unpacked(const std::string& path) { return unpacked(path, read_file(path)); }
+std::string read_file_unpacked(const std::string& path) {
+  return read_within_memory(path, [&] { return unpacked(path, read_file(path)); });
+}
 
 }  // namespace brume

@@ -3,6 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <new>
+#include <string>
+
+#include "base/diagnostics.h"
 
 namespace brume {
 
@@ -12,5 +16,15 @@ std::int64_t peak_memory();
 // The most bytes of a text whose size does not show before it is there: packed, or from a pipe. An eighth of the
 // memory, that of the machine or what the process is allowed of it; what is made of a text is larger than the text.
 std::size_t largest_text();
+
+// What `read` makes of the file `name`. Where memory ends meanwhile, the InputError says by which file.
+template <class Read>
+auto read_within_memory(const std::string& name, Read&& read) {
+  try {
+    return read();
+  } catch (const std::bad_alloc&) {
+    throw InputError(name, "cannot be read: not enough memory");
+  }
+}
 
 }  // namespace brume

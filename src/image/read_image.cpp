@@ -2,6 +2,7 @@
 
 #include "base/diagnostics.h"
 #include "base/file.h"
+#include "base/memory.h"
 #include "image/formats.h"
 
 namespace brume {
@@ -20,9 +21,9 @@ template <class Decode>
 auto decode_file(const std::string& path, Decode&& decode) {
   const std::string bytes = read_file(path);
   try {
-    return decode(bytes);
-  } catch (const std::bad_alloc&) {
-    throw InputError(path, "cannot be read: not enough memory");
+    return read_within_memory(path, [&] { return decode(bytes); });
+  } catch (const InputError&) {
+    throw;
   } catch (const std::exception& e) {
     throw InputError(path, "cannot be read: " + without_empty_name(e.what()));
   }

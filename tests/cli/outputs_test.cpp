@@ -331,6 +331,14 @@ TEST(Inputs, ScenesComePackedAndFromTheStandardInput) {
   EXPECT_THAT(folder.names(), Not(Contains("none.pfm")));
 }
 
+TEST(Inputs, AFileThatMemoryDoesNotHoldIsNamed) {
+  if (sanitized) GTEST_SKIP() << "sanitizers take all addresses there are";
+  const TemporaryFolder folder;
+  const std::string there = "cd '" + folder.path() + "' && truncate -s 4G a.vol && ulimit -v 4000000 && ";
+  EXPECT_NE(std::system((there + BRUME_PROGRAM " info a.vol 2> error").c_str()), 0);
+  EXPECT_EQ(bytes_of(folder.file("error")), "a.vol: error: cannot be read: not enough memory\n");
+}
+
 // An eighth of what the process may have.
 TEST(Inputs, AnEndlessStandardInputIsRefused) {
   if (sanitized) GTEST_SKIP() << "sanitizers take all addresses there are";
