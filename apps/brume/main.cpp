@@ -1,5 +1,6 @@
 // The program brume: reads its arguments, calls libbrume, shows what comes back.
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -31,6 +32,7 @@ int run(std::vector<std::string> arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // where a file may grow no more, writing fails with a message, as on a full disk
   try {
     const int exit_code = run({argv + 1, argv + argc});
     if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return exit_code;

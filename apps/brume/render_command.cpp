@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 
 #include "brume/brume.h"
@@ -159,7 +160,33 @@ bool any_ends_in(const std::vector<std::string>& paths, const char* suffix) {
   });
 }
 
+// Whether two paths lead to one file, which need not be there yet.
+bool same_file(const std::string& a, const std::string& b) {
+  std::error_code error;
+  if (std::filesystem::equivalent(a, b, error)) return true;
+  const auto whole = [&](const std::string& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
+  };
+  return whole(a) == whole(b);
+}
+
+// What is written replaces what was there: nothing may be lost so that was read, or was written just before.
+void check_no_file_is_lost(const Arguments& a, std::vector<std::string> outputs) {
+  for (const std::string& output : {a.write_scene, a.stats_json})
+    if (!output.empty()) outputs.push_back(output);
+  for (auto output = outputs.begin(); output != outputs.end(); ++output) {
+    const auto is_output = [&](const std::string& other) { return same_file(*output, other); };
+    if (std::any_of(a.files.begin(), a.files.end(), is_output))
+      throw UsageError(*output + " is read, so it cannot be an output; name another file");
+    if (std::any_of(outputs.begin(), output, is_output))
+      throw UsageError(*output + " is given for two outputs; each needs a file of its own");
+  }
+}
+
 void check_outputs(const Arguments& a, const std::vector<std::string>& outputs) {
+  if (!a.write_scene.empty() && !any_ends_in({a.write_scene}, ".pbrt"))
+    throw UsageError("--write-scene: " + a.write_scene + " is not a .pbrt file");
+  check_no_file_is_lost(a, outputs);
   for (const std::string& output : outputs) brume::Picture::check_output(output);
   if (!a.stats_json.empty()) brume::Statistics::check_output(a.stats_json);
   if (a.exposure != 0 && !outputs.empty() && !any_ends_in(outputs, ".png"))
@@ -204,15 +231,27 @@ std::optional<brume::Picture> render(const Arguments& a, const brume::Scene& sce
   return picture;
 }
 
+// Writes every output that can be written: where one disk is full, the picture is not lost on the others.
 int save(const Arguments& a, const brume::Picture& picture, const std::vector<std::string>& outputs) {
-  for (const std::string& output : outputs) {
-    picture.write(output, a.exposure);
-    say(a, output + ": " + std::to_string(picture.width) + " x " + std::to_string(picture.height) + " pixels, " +
-               std::to_string(picture.samples_per_pixel) + " samples per pixel" +
-               (picture.partial ? " at least; partial" : "") + ", " + clock_text(picture.seconds));
-  }
+  bool all_written = true;
+  const auto attempt = [&](const auto& write) {
+    try {
+      write();
+    } catch (const brume::Error& e) {
+      std::fprintf(stderr, "%s\n", e.what());
+      all_written = false;
+    }
+  };
+  for (const std::string& output : outputs)
+    attempt([&] {
+      picture.write(output, a.exposure);
+      say(a, output + ": " + std::to_string(picture.width) + " x " + std::to_string(picture.height) + " pixels, " +
+                 std::to_string(picture.samples_per_pixel) + " samples per pixel" +
+                 (picture.partial ? " at least; partial" : "") + ", " + clock_text(picture.seconds));
+    });
   if (a.stats) std::fputs(picture.statistics.table().c_str(), stderr);
-  if (!a.stats_json.empty()) picture.statistics.write(a.stats_json);
+  if (!a.stats_json.empty()) attempt([&] { picture.statistics.write(a.stats_json); });
+  if (!all_written) return 1;
   return picture.partial ? exit_interrupted : 0;
 }
 

@@ -11,10 +11,13 @@
 #include <cstdio>
 #include <filesystem>
 #include <random>
+#include <span>
 #include <system_error>
 #include <utility>
 
 #include "base/diagnostics.h"
+#include "base/memory.h"
+#include "base/pieces.h"
 
 namespace brume {
 
@@ -115,20 +118,13 @@ void write_bytes(const std::string& path, const std::string& temporary, std::str
   if (!file.close_checked()) throw_unwritable(path, reason(errno));
 }
 
-// `expected` bytes, or what else there is; more than 0.
-std::string read_all(const std::string& name, int descriptor, std::size_t expected) {
-  std::string bytes(expected, '\0');
-  std::size_t size = 0;
+// As many bytes as there are, up to the size of `to`; 0 at the end.
+std::size_t read_some(const std::string& name, int descriptor, std::span<char> to) {
   for (;;) {
-    if (size == bytes.size()) bytes.resize(2 * size);
-    const ssize_t got = read(descriptor, bytes.data() + size, bytes.size() - size);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) throw InputError(name, "cannot be read: " + reason(errno));
-    if (got == 0) break;
-    size += static_cast<std::size_t>(got);
+    const ssize_t got = read(descriptor, to.data(), to.size());
+    if (got >= 0) return static_cast<std::size_t>(got);
+    if (errno != EINTR) throw InputError(name, "cannot be read: " + reason(errno));
   }
-  bytes.resize(size);
-  return bytes;
 }
 
 }  // namespace
@@ -143,10 +139,23 @@ std::string read_file(const std::string& path) {
   if (!file.is_open()) fail(reason(errno));
 
   // One byte more than the size, so that the end shows without growing once more.
-  return read_all(path, file.number(), static_cast<std::size_t>(status.st_size) + 1);
+  const std::size_t expected = static_cast<std::size_t>(status.st_size) + 1;
+  std::string bytes = read_within_memory(path, [&] { return std::string(expected, '\0'); });
+  std::size_t size = 0;
+  while (const std::size_t got = read_some(path, file.number(), std::span(bytes).subspan(size))) {
+    size += got;
+    if (size == bytes.size()) bytes.resize(2 * size);
+  }
+  bytes.resize(size);
+  return bytes;
 }
 
-std::string read_standard_input() { return read_all("standard input", STDIN_FILENO, 1 << 16); }
+std::string read_standard_input() {
+  const std::string name = "standard input";
+  Pieces text(name, largest_text());
+  while (const std::size_t got = read_some(name, STDIN_FILENO, text.room())) text.filled(got);
+  return text.joined();
+}
 
 void check_writable(const std::string& path) {
   const std::string target = resolve_links(path), folder = folder_of(target);

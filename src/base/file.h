@@ -10,7 +10,7 @@ namespace brume {
 // The bytes of a file. Throws InputError where it cannot be read (missing, not a regular file, no permission).
 std::string read_file(const std::string& path);
 
-// All that comes from the standard input. Throws InputError.
+// All that comes from the standard input. Throws InputError, also where that is more than largest_text().
 std::string read_standard_input();
 
 // Has `write` make the file under a temporary name beside `path` (ending in ".part"), flushes it to disk and renames it

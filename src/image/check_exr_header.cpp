@@ -37,11 +37,13 @@ std::string_view take_word(std::string_view& rest) {
 }
 
 // Deflate, the densest of OpenEXR's lossless codecs, packs at most 1032 bytes into one, and a pixel has three values of
-// two bytes at least. Readers hold blocks of 16 or 32 rows, even of a picture of one row.
+// two bytes at least. Readers hold blocks of 16 or 32 rows, even of a picture of one row. A picture of more pixels than
+// a .png may have does not reach that density: real ones of such a size have pixels that differ.
 bool can_hold(std::size_t file_bytes, std::array<std::int32_t, 4> window) {
   const std::int64_t width = std::int64_t{window[2]} - window[0] + 1, height = std::int64_t{window[3]} - window[1] + 1;
   if (width <= 0 || height <= 0 || width > 1 << 24 || height > 1 << 24) return false;
-  return width * std::max<std::int64_t>(height, 32) <= static_cast<std::int64_t>(file_bytes) * 1032 / 6 + 65536;
+  const std::int64_t bytes = static_cast<std::int64_t>(file_bytes), pixels = width * std::max<std::int64_t>(height, 32);
+  return pixels <= bytes * 1032 / 6 + 65536 && pixels <= std::max(std::int64_t{1} << 26, 8 * bytes);
 }
 
 }  // namespace

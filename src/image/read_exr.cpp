@@ -43,17 +43,18 @@ const Imf::Channel* find_channel(const Imf::InputFile& file, const char* name) {
 // Has channels of the file read into `values`, one float for each a pixel.
 void insert(Imf::FrameBuffer& frame, const Imf::InputFile& file, std::span<const char* const> names,
             std::vector<float>& values) {
+  for (const char* name : names) {
+    const Imf::Channel* channel = find_channel(file, name);
+    if (!channel) throw std::runtime_error(std::string("it has no channel ") + name);
+    if (channel->xSampling != 1 || channel->ySampling != 1) throw std::runtime_error("its channels are subsampled");
+  }
   const Imath::Box2i window = file.header().dataWindow();
   const auto width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
   values.resize(width * static_cast<std::size_t>(window.max.y - window.min.y + 1) * names.size());
   const std::size_t pixel = names.size() * sizeof(float);
   float* first = values.data();
-  for (const char* name : names) {
-    const Imf::Channel* channel = find_channel(file, name);
-    if (!channel) throw std::runtime_error(std::string("it has no channel ") + name);
-    if (channel->xSampling != 1 || channel->ySampling != 1) throw std::runtime_error("its channels are subsampled");
+  for (const char* name : names)
     frame.insert(name, Imf::Slice::Make(Imf::FLOAT, first++, window, pixel, pixel * width));
-  }
 }
 
 }  // namespace

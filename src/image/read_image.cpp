@@ -1,23 +1,31 @@
-#include <fmt/format.h>
+#include <string_view>
 
 #include "base/diagnostics.h"
 #include "base/file.h"
+#include "base/memory.h"
 #include "image/formats.h"
 
 namespace brume {
 
 namespace {
 
+// OpenEXR begins with `Cannot read image file "". ` and the like: it has no name for what it reads from memory.
+std::string without_empty_name(const std::string& message) {
+  constexpr std::string_view nameless = "image file \"\". ";
+  const std::size_t at = message.find(nameless);
+  return at == std::string::npos ? message : message.substr(at + nameless.size());
+}
+
 // What `decode` makes of the file's bytes; what it throws becomes an InputError.
 template <class Decode>
 auto decode_file(const std::string& path, Decode&& decode) {
   const std::string bytes = read_file(path);
   try {
-    return decode(bytes);
-  } catch (const std::bad_alloc&) {
+    return read_within_memory(path, [&] { return decode(bytes); });
+  } catch (const InputError&) {
     throw;
   } catch (const std::exception& e) {
-    throw InputError(path, fmt::format("cannot be read: {}", e.what()));
+    throw InputError(path, "cannot be read: " + without_empty_name(e.what()));
   }
 }
 

@@ -87,6 +87,21 @@ void check_size(const Header& h, std::size_t file_bytes) {
     throw std::runtime_error("it is too short for its size");
 }
 
+// libpng makes room for a chunk before it reads it: none may claim more than the file has. A chunk is: length
+// (big-endian), name of 4 bytes, data, check sum of 4 bytes. Where the signature is wrong, libpng says so.
+void check_chunks(std::string_view bytes) {
+  constexpr std::size_t signature = 8, around_data = 12;
+  if (bytes.size() < signature || png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes.data()), 0, signature)) return;
+  std::string_view name;
+  for (std::string_view rest = bytes.substr(signature); !rest.empty() && name != "IEND";) {
+    if (rest.size() < around_data) throw std::runtime_error("the file ends too early");
+    const std::size_t length = png_get_uint_32(reinterpret_cast<png_const_bytep>(rest.data()));
+    if (length > rest.size() - around_data) throw std::runtime_error("the file ends too early");
+    name = rest.substr(4, 4);
+    rest.remove_prefix(length + around_data);
+  }
+}
+
 struct Reader {
   Input input;
   png_structp png = nullptr;
@@ -108,6 +123,7 @@ struct Reader {
 }  // namespace
 
 Image decode_png(std::string_view bytes, double gamma) {
+  check_chunks(bytes);
   Reader reader(bytes);
   Header header;
   size_t row_bytes = 0;

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "base/gzip.h"
+#include "base/memory.h"
 #include "scene/mesh_text.h"
 
 namespace brume {
@@ -139,7 +140,7 @@ class ObjReader {
 ObjMesh read_obj(const std::string& path) {
   std::string text = read_file_unpacked(path);
   try {
-    return ObjReader(text).take();
+    return read_within_memory(path, [&] { return ObjReader(text).take(); });
   } catch (const Fault& fault) {
     throw InputError(path, fault.message);
   }

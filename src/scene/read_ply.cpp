@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "base/gzip.h"
+#include "base/memory.h"
 #include "scene/mesh_text.h"
 
 namespace brume {
@@ -242,7 +243,7 @@ PlyMesh read_ply(const std::string& path) { return read_ply_bytes(path, read_fil
 
 PlyMesh read_ply_bytes(const std::string& name, std::string_view bytes) {
   try {
-    return decode_ply(bytes);
+    return read_within_memory(name, [&] { return decode_ply(bytes); });
   } catch (const Fault& fault) {
     throw InputError(name, fault.message);
   }

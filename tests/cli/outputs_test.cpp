@@ -5,13 +5,13 @@
 #include <sys/resource.h>
 
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 
 #include "cli/run_program.h"
 #include "image/image.h"
 #include "image/temporary_folder.h"
+#include "sanitized.h"
 
 namespace brume {
 namespace {
@@ -244,6 +244,29 @@ TEST_F(Outputs, BadOutputsAreRefusedBeforeRendering) {
   EXPECT_THAT(folder_.names(), ElementsAre("a.pbrt", "folder.pfm"));
 }
 
+TEST_F(Outputs, NoInputIsReplaced) {
+  const std::string scene = bytes("a.pbrt");
+  std::filesystem::create_symlink("a.pbrt", folder_.file("link.pbrt"));
+  const auto expect_refused = [&](const std::vector<std::string>& arguments, const std::string& message) {
+    const Outcome outcome = run(folder_.path(), arguments);
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.error, HasSubstr(message));
+    EXPECT_EQ(bytes("a.pbrt"), scene);
+  };
+  for (const char* output : {"a.pbrt", "./a.pbrt", "link.pbrt"}) {
+    const std::string is_read = std::string(output) + " is read, so it cannot be an output";
+    expect_refused({"a.pbrt", "--write-scene", output}, is_read);
+    expect_refused({"a.pbrt", "-o", "b.pfm", "--stats-json", output}, is_read);
+  }
+  expect_refused({"a.pbrt", "--write-scene", "b.vdb"}, "--write-scene: b.vdb is not a .pbrt file");
+  expect_refused({"a.pbrt", "-o", "b.pfm", "-o", "./b.pfm"}, "./b.pfm is given for two outputs");
+  expect_refused({"a.pbrt", "--write-scene", "b.pbrt", "--stats-json", folder_.file("b.pbrt")},
+                 "b.pbrt is given for two outputs");
+  // The scene's own name for its picture.
+  expect_refused({"a.pbrt", "--stats-json", "named by scene.pfm"}, "is given for two outputs");
+  EXPECT_THAT(folder_.names(), ElementsAre("a.pbrt", "link.pbrt"));
+}
+
 // The limit on a file's size, which programs inherit, stands in for a full disk: writing fails after some bytes, when
 // all is rendered.
 TEST_F(Outputs, AFullDiskLeavesNothingBehind) {
@@ -252,11 +275,9 @@ TEST_F(Outputs, AFullDiskLeavesNothingBehind) {
     rlimit before{};
     getrlimit(RLIMIT_FSIZE, &before);
     const rlimit small{8192, before.rlim_max};
-    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
     setrlimit(RLIMIT_FSIZE, &small);
     const Outcome outcome = run(folder_.path(), arguments);
     setrlimit(RLIMIT_FSIZE, &before);
-    std::signal(SIGXFSZ, handler);
     EXPECT_EQ(outcome.exit_code, 1);
     return outcome.error;
   };
@@ -266,6 +287,10 @@ TEST_F(Outputs, AFullDiskLeavesNothingBehind) {
             "c.vdb: error: cannot be written: File too large\n");
   EXPECT_EQ(bytes("old.pfm"), "old");
   EXPECT_THAT(folder_.names(), ElementsAre("a.pbrt", "old.pfm"));
+  // What has room is written nevertheless: a .png of these pixels is small.
+  EXPECT_THAT(run_with_a_small_disk({"a.pbrt", "--resolution", "64x48", "-o", "old.pfm", "-o", "b.png"}),
+              HasSubstr("old.pfm: error: cannot be written: File too large\nb.png: 64 x 48 pixels"));
+  EXPECT_THAT(folder_.names(), ElementsAre("a.pbrt", "b.png", "old.pfm"));
 }
 
 TEST_F(Outputs, AFullStandardOutputIsAnError) {
@@ -304,6 +329,24 @@ TEST(Inputs, ScenesComePackedAndFromTheStandardInput) {
   EXPECT_NE(std::system((there + "echo Shape | " + program + " - -o none.pfm 2> error").c_str()), 0);
   EXPECT_THAT(bytes_of(folder.file("error")), HasSubstr("standard input:1:1: error:"));
   EXPECT_THAT(folder.names(), Not(Contains("none.pfm")));
+}
+
+TEST(Inputs, AFileThatMemoryDoesNotHoldIsNamed) {
+  if (sanitized) GTEST_SKIP() << "sanitizers take all addresses there are";
+  const TemporaryFolder folder;
+  const std::string there = "cd '" + folder.path() + "' && truncate -s 4G a.vol && ulimit -v 4000000 && ";
+  EXPECT_NE(std::system((there + BRUME_PROGRAM " info a.vol 2> error").c_str()), 0);
+  EXPECT_EQ(bytes_of(folder.file("error")), "a.vol: error: cannot be read: not enough memory\n");
+}
+
+// An eighth of what the process may have.
+TEST(Inputs, AnEndlessStandardInputIsRefused) {
+  if (sanitized) GTEST_SKIP() << "sanitizers take all addresses there are";
+  const TemporaryFolder folder;
+  const std::string program = BRUME_PROGRAM, there = "cd '" + folder.path() + "' && ulimit -v 4000000 && ";
+  EXPECT_NE(std::system((there + "yes '#' | " + program + " - 2> error").c_str()), 0);
+  EXPECT_EQ(bytes_of(folder.file("error")),
+            "standard input: error: has more than 512000000 bytes of text, an eighth of the memory\n");
 }
 
 }  // namespace

@@ -324,6 +324,33 @@ TEST(ImageFiles, AnExrThatClaimsTooMuchIsRefused) {
   EXPECT_NE(error_of([&] { read_image(path); }), "no error");
 }
 
+// 3 MB could be 2^28 pixels of one colour, which take 3 GB.
+TEST(ImageFiles, AnExrOfMoreThanItsBytesAreWorthIsRefused) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a.exr");
+  write_image(path, test_image(5, 20), test_metadata());
+  std::string bytes = bytes_of(path);
+  const std::size_t window = bytes.find("dataWindow") + 11 + 6 + 4;  // name, type "box2i", size
+  bytes.replace(window + 8, 8, std::string("\xff\x3f\0\0\xff\x3f\0\0", 8));
+  bytes.resize(3'000'000);
+  write_bytes_to(path, bytes);
+  EXPECT_THAT(error_of([&] { read_image(path); }), HasSubstr("its header gives a size that the file cannot hold"));
+}
+
+// OpenEXR has no name for what it reads from memory.
+TEST(ImageFiles, ErrorsOfOpenExrNameNoOtherFile) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a.exr");
+  write_image(path, test_image(5, 20), test_metadata());
+  std::string bytes = bytes_of(path);
+  const std::size_t compression = bytes.find("compression") + 12 + 12 + 4;  // name, type "compression", size
+  bytes[compression] = 99;
+  write_bytes_to(path, bytes);
+  const std::string error = error_of([&] { read_image(path); });
+  EXPECT_THAT(error, HasSubstr("a.exr: error: cannot be read: "));
+  EXPECT_THAT(error, testing::Not(HasSubstr("\"\"")));
+}
+
 TEST(ImageFiles, ASingleColourCompressesAndIsReadBack) {
   const TemporaryFolder folder;
   const Image image{2000, 2000, std::vector<float>(2000 * 2000 * 3, 0.5f)};

@@ -9,6 +9,7 @@
 
 #include "base/diagnostics.h"
 #include "base/file.h"
+#include "base/memory.h"
 #include "image/image.h"
 #include "image/temporary_folder.h"
 
@@ -148,6 +149,18 @@ TEST_F(PngFiles, ThatClaimMoreThanTheyHoldAreRefused) {
   EXPECT_THAT(error(path_), HasSubstr("ends too early"));
   EXPECT_THAT(error(folder_.file("none.png")), HasSubstr("No such file"));
   EXPECT_THAT(error(folder_.file("a.jpg")), HasSubstr("pictures are read from .exr, .pfm and .png files"));
+}
+
+// libpng would make room for the 2 GiB that a text's length claims.
+TEST_F(PngFiles, AChunkLongerThanTheFileIsRefused) {
+  Png png;
+  png.data = ramp(18);
+  png.write(path_);
+  const std::string good = read_file(path_), text("\x7f\x7f\xff\xfftEXtabc", 11);
+  write_bytes_to(path_, good.substr(0, 33) + text + good.substr(33));  // behind the header
+  const std::int64_t before = peak_memory();
+  EXPECT_THAT(error(path_), HasSubstr("a.png: error: cannot be read: the file ends too early"));
+  EXPECT_LT(peak_memory() - before, 1 << 28);
 }
 
 // Every truncation, and random changes: read or refused with the file's name, no more.

@@ -42,6 +42,23 @@ TEST(Gzip, UnpacksWhatWasPacked) {
   EXPECT_EQ(unpacked("a", ""), "");
 }
 
+// A bomb ends where the limit is passed, before the text is whole; the peak shows that no more is held.
+TEST(Gzip, NoMoreIsUnpackedThanTheLimit) {
+  const std::string text = sample_text(), piece = packed(std::string(1 << 24, ' '));
+  std::string bomb;  // of 512 MB
+  for (int i = 0; i < 32; ++i) bomb += piece;
+  EXPECT_EQ(unpacked("a", packed(text), text.size()), text);
+  EXPECT_THROW(unpacked("a", packed(text), text.size() - 1), InputError);
+  const std::int64_t before = peak_memory();
+  try {
+    unpacked("a.pbrt.gz", bomb, 1'000'000);
+    ADD_FAILURE() << "nothing thrown";
+  } catch (const InputError& e) {
+    EXPECT_STREQ(e.what(), "a.pbrt.gz: error: has more than 1000000 bytes of text, an eighth of the memory");
+  }
+  EXPECT_LT(peak_memory() - before, 1 << 27);
+}
+
 TEST(Gzip, DamagedFilesAreRefusedOrUnpackedToSomething) {
   const std::string good = packed(sample_text());
   std::mt19937 random(2);
