@@ -82,6 +82,31 @@ class Parts {
   std::vector<MediumDescription> parts_;
 };
 
+// Of media, beyond the first part: the parts' names.
+using MoreParts = std::map<std::string, std::vector<std::string>>;
+
+// Adds, for each shape that bounds a medium of several parts, the boundaries of the further ones.
+void add_boundaries(const std::vector<ShapeDescription>& shapes, const MoreParts& more_parts,
+                    std::vector<ShapeDescription>& to) {
+  for (const ShapeDescription& shape : shapes) {
+    const bool is_volume = std::holds_alternative<VolumeShape>(shape.kind);
+    if (!is_volume && !bounds_media(shape)) continue;
+    const auto add = [&](const std::string& inside, const std::string& outside) {
+      ShapeDescription boundary = shape;
+      boundary.material = InterfaceMaterial{};
+      boundary.light.reset();
+      boundary.inside = inside;
+      boundary.outside = outside;
+      to.push_back(std::move(boundary));
+    };
+    if (const auto more = more_parts.find(shape.inside); more != more_parts.end())
+      for (const std::string& part : more->second) add(part, "");
+    if (is_volume) continue;
+    if (const auto more = more_parts.find(shape.outside); more != more_parts.end())
+      for (const std::string& part : more->second) add("", part);
+  }
+}
+
 }  // namespace
 
 bool has_rgb_grids(const SceneDescription& scene) {
@@ -92,7 +117,7 @@ bool has_rgb_grids(const SceneDescription& scene) {
 SceneDescription with_rgb_grids_as_sums(const SceneDescription& scene) {
   SceneDescription sums = scene;
   sums.media.clear();
-  std::map<std::string, std::vector<std::string>> more_parts;  // of a medium, beyond the first: their names
+  MoreParts more_parts;
   for (const MediumDescription& medium : scene.media) {
     const auto* grid = std::get_if<RgbGridMedium>(&medium.kind);
     if (!grid) {
@@ -103,23 +128,9 @@ SceneDescription with_rgb_grids_as_sums(const SceneDescription& scene) {
     for (std::size_t i = 1; i < parts.size(); ++i) more_parts[medium.name].push_back(parts[i].name);
     std::move(parts.begin(), parts.end(), std::back_inserter(sums.media));
   }
-  for (const ShapeDescription& shape : scene.shapes) {
-    const bool is_volume = std::holds_alternative<VolumeShape>(shape.kind);
-    if (!is_volume && !bounds_media(shape)) continue;
-    const auto add = [&](const std::string& inside, const std::string& outside) {
-      ShapeDescription boundary = shape;
-      boundary.material = InterfaceMaterial{};
-      boundary.light.reset();
-      boundary.inside = inside;
-      boundary.outside = outside;
-      sums.shapes.push_back(std::move(boundary));
-    };
-    if (const auto more = more_parts.find(shape.inside); more != more_parts.end())
-      for (const std::string& part : more->second) add(part, "");
-    if (is_volume) continue;
-    if (const auto more = more_parts.find(shape.outside); more != more_parts.end())
-      for (const std::string& part : more->second) add("", part);
-  }
+  add_boundaries(scene.shapes, more_parts, sums.shapes);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    add_boundaries(scene.objects[i].shapes, more_parts, sums.objects[i].shapes);
   return sums;
 }
 

@@ -8,7 +8,8 @@ using kernel::vec3;
 
 namespace {
 
-// How many times over each medium is there, and since where along the ray. The set that a path carries.
+// How many times over each medium is there, and since where along the ray. While the set at a ray's origin is summed
+// up, the media at the origin and those at the place come to so far are in it.
 class ActiveMedia {
  public:
   struct Entry {
@@ -31,6 +32,7 @@ class ActiveMedia {
   }
 
   std::span<Entry> entries() { return {entries_.data(), size_}; }
+  bool is_over_limit() const { return size_ > max_active_media; }
 
  private:
   Entry* find_or_add(int medium, float t) {
@@ -41,7 +43,7 @@ class ActiveMedia {
     return &entries_[size_++];
   }
 
-  std::array<Entry, max_active_media> entries_;
+  std::array<Entry, 2 * max_active_media> entries_;
   std::size_t size_ = 0;
 };
 
@@ -171,10 +173,11 @@ std::optional<vec3> MediaAlongRay::follow(const Ray& ray, int ray_index, std::sp
     if (!active.change(boundary(c).inside, c.inwards ? -1 : 1, 0, nothing) ||
         !active.change(boundary(c).outside, c.inwards ? 1 : -1, 0, nothing))
       return ray.at(c.t);
+  if (active.is_over_limit()) return ray.origin;
   for (const Crossing& c : crossings) {
     if (c.t >= ray.t_max) break;
     if (!active.change(boundary(c).inside, c.inwards ? 1 : -1, c.t, emit) ||
-        !active.change(boundary(c).outside, c.inwards ? -1 : 1, c.t, emit))
+        !active.change(boundary(c).outside, c.inwards ? -1 : 1, c.t, emit) || active.is_over_limit())
       return ray.at(c.t);
   }
   for (const auto& e : active.entries())

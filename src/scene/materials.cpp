@@ -34,14 +34,15 @@ constexpr Metal metals[] = {{"Ag", {{0.06f, 0.06f, 0.05f}}, {{4.152f, 3.586f, 2.
                             {"TiO2", {{2.594f, 2.648f, 2.744f}}, {{0, 0, 0}}}};
 constexpr std::size_t copper = 3;
 
-// pbrt's glasses by their index at 587.6 nm, from their makers' data sheets: there is no dispersion.
+// pbrt's glasses by their index at 587.6 nm, from their makers' data sheets: there is no dispersion. Its F5, F10 and
+// F11 are Schott's SF5, SF10 and SF11.
 struct Glass {
   std::string_view name;
   float eta;
 };
 constexpr Glass glasses[] = {{"glass-BK7", 1.5168f},   {"glass-BAF10", 1.6700f}, {"glass-FK51A", 1.4866f},
-                             {"glass-LASF9", 1.8503f}, {"glass-F5", 1.6034f},    {"glass-F10", 1.6228f},
-                             {"glass-F11", 1.6206f}};
+                             {"glass-LASF9", 1.8503f}, {"glass-F5", 1.6727f},    {"glass-F10", 1.7283f},
+                             {"glass-F11", 1.7847f}};
 
 // The name of the spectrum that the parameter gives, "" where it gives none by name.
 std::string spectrum_name(ParameterList& p, std::string_view parameter) {

@@ -66,11 +66,25 @@ void check_is_scene(const std::string& path) {
                                s.empty() ? "no suffix" : fmt::format("unknown suffix \"{}\"", s), volume_suffixes));
 }
 
-// A scene as text or in another folder must find its volumes from anywhere.
+// A scene as text or in another folder must find its volumes and pictures from anywhere.
 SceneDescription with_absolute_names(SceneDescription scene) {
+  const auto make_absolute = [](std::string& name) {
+    if (!name.empty()) name = std::filesystem::absolute(name).lexically_normal().string();
+  };
+  const auto of_shapes = [&](std::vector<ShapeDescription>& shapes) {
+    for (ShapeDescription& shape : shapes) {
+      make_absolute(shape.relief.normal_map);
+      if (shape.light) make_absolute(shape.light->filename);
+    }
+  };
   for (MediumDescription& medium : scene.media)
-    if (auto* file = std::get_if<FileMedium>(&medium.kind))
-      file->filename = std::filesystem::absolute(file->filename).lexically_normal().string();
+    if (auto* file = std::get_if<FileMedium>(&medium.kind)) make_absolute(file->filename);
+  for (LightDescription& light : scene.lights)
+    if (auto* infinite = std::get_if<InfiniteLight>(&light.kind)) make_absolute(infinite->filename);
+  for (TextureDescription& texture : scene.textures)
+    if (auto* image = std::get_if<ImageTexture>(&texture.kind)) make_absolute(image->filename);
+  of_shapes(scene.shapes);
+  for (ObjectDescription& object : scene.objects) of_shapes(object.shapes);
   return scene;
 }
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 
 #include "cli/run_program.h"
 #include "image/image.h"
@@ -43,6 +45,22 @@ TEST_F(Outputs, GoesToTheFileThatTheSceneNames) {
   expect_success({"a.pbrt"});
   EXPECT_THAT(folder_.names(), ElementsAre("a.pbrt", "named by scene.pfm"));
   EXPECT_THAT(error_, HasSubstr("named by scene.pfm: 16 x 12 pixels, 2 samples per pixel"));
+}
+
+TEST_F(Outputs, AWrittenSceneFindsItsPicturesFromAnotherFolder) {
+  expect_success({"a.pbrt", "-o", "sky.exr", "--resolution", "8x8"});
+  std::ofstream(folder_.file("lit.pbrt")) << R"(
+    Film "rgb" "integer xresolution" 4 "integer yresolution" 4
+    WorldBegin
+    LightSource "infinite" "string filename" "sky.exr"
+    Texture "t" "spectrum" "imagemap" "string filename" "sky.exr"
+    Material "diffuse" "texture reflectance" "t"
+    Shape "sphere")";
+  std::filesystem::create_directory(folder_.file("else"));
+  expect_success({"lit.pbrt", "--write-scene", "else/lit.pbrt"});
+  expect_success({"else/lit.pbrt", "--spp", "1", "-o", "lit.pfm"});
+  expect_success({"lit.pbrt", "--spp", "1", "-o", "again.pfm"});
+  EXPECT_EQ(bytes("lit.pfm"), bytes("again.pfm"));
 }
 
 TEST_F(Outputs, ManyAtOnce) {

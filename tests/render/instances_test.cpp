@@ -114,5 +114,23 @@ TEST(Instances, OfUnknownObjectsAreAnError) {
   EXPECT_THROW(compile(s, 1, warnings), InputError);
 }
 
+// A medium of coloured cells is several media, all of which an object has.
+TEST(Instances, ColouredGridsKeepTheirChannels) {
+  SceneDescription in_world = needle_scene({0.1, 0.2, -5});
+  in_world.lights = {sky(1)};
+  MediumDescription coloured = homogeneous_medium("coloured", 1, 0);
+  coloured.kind = RgbGridMedium{{1, 1, 1}, {-2, -2, -2}, {2, 2, 2}, {0.2f, 0.4f, 0.8f}, {0, 0, 0}, {}};
+  in_world.media = {coloured};
+  in_world.shapes = {sphere_shape({0, 0, 0}, 1, "coloured")};
+  SceneDescription placed = in_world;
+  placed.objects = {{"ball", placed.shapes}};
+  placed.shapes.clear();
+  placed.instances.emplace_back();
+  placed.instances[0].object = "ball";
+  const Image expected = render_film(in_world, 4).image(), found = render_film(placed, 4).image();
+  EXPECT_LT(expected.pixels[2], expected.pixels[0]);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(found.pixels[c], expected.pixels[c], 1e-4f * expected.pixels[c]);
+}
+
 }  // namespace
 }  // namespace brume

@@ -190,6 +190,24 @@ TEST(MediaSets, NoOpenBoundaryIsFoundWhereNoneIs) {
   }
 }
 
+// What counts is how many there are at one place.
+TEST(MediaSets, ManyMediaAfterManyOthersAreFew) {
+  std::vector<MediumDescription> media;
+  std::vector<ShapeDescription> shapes;
+  for (int i = 0; i < 12; ++i) {
+    const std::string around = "around" + std::to_string(i), ahead = "ahead" + std::to_string(i);
+    media.push_back(homogeneous_medium(around, 0.01f, 0));
+    media.push_back(homogeneous_medium(ahead, 0.01f, 0));
+    ShapeDescription near_ball = sphere_shape({0, 0, -10}, 1 + 0.1 * i, around);
+    ShapeDescription far_ball = sphere_shape({0, 0, 0}, 1 + 0.1 * i, ahead);
+    shapes.push_back(near_ball);
+    shapes.push_back(far_ball);
+  }
+  double expected = 0;
+  for (int i = 0; i < 12; ++i) expected += 0.01 * (1 + 0.1 * i) * 3;
+  EXPECT_NEAR(optical_depth(view(media, shapes)), expected, 0.01 * expected);
+}
+
 TEST(MediaSets, MoreThanSixteenMediaAreAnError) {
   std::vector<MediumDescription> media;
   std::vector<ShapeDescription> shapes;
