@@ -18,8 +18,8 @@ class Backend {
   // Makes ready to render `scene`, which must outlive this.
   virtual void prepare(const CompiledScene& scene) = 0;
 
-  // After prepare: a place at which shapes that bound a medium were found not to be closed, so that the media which a ray
-  // finds around it are not right.
+  // After prepare: a place at which shapes that bound a medium were found not to be closed, so that the media which a
+  // ray finds around it are not right.
   virtual std::optional<kernel::vec3> open_boundary() const = 0;
 
   // Adds samples [first, last) of every pixel of the scene's crop to `film`, which has the crop's size, on `threads`
