@@ -59,7 +59,7 @@ class MediumTasks {
   const TrackTasks& stretches(std::int32_t medium) const { return tasks_[static_cast<std::size_t>(medium)]; }
 
   // After find_stretches of the same rays: the first collision of each of the `count` rays up to its t_max. Each
-  // medium's is sampled on its own, and the nearest wins (docs/architecture.md, "Where media overlap").
+  // medium's is sampled on its own, and the nearest wins (docs/architecture.md, "Where media are").
   void find_collisions(const RayColumns& rays, std::uint32_t count, const FlightColumns& flights);
 
   // After find_stretches: transmittance[c][i] = an unbiased estimate of what crosses ray i up to its t_max in channel

@@ -8,8 +8,8 @@
 namespace brume {
 
 // A place where how often a medium is there depends on the direction in which that is counted: shapes that bound it are
-// not closed. Looked for at places near the scene's boundaries and in directions that are taken at random, but always
-// the same; none where none was found.
+// not closed. Looked for at places near the boundaries of the world and of one instance of each object, and in
+// directions that are taken at random, but always the same; none where none was found.
 std::optional<kernel::vec3> find_open_boundary(const CompiledScene& scene, const MediaAlongRay& media);
 
 }  // namespace brume

@@ -152,7 +152,6 @@ ProceduralMedium read_procedural(ParameterList& p) {
   return {procedural};
 }
 
-// With the medium's own coefficients, which multiply those of the cells.
 // Triples; what lies outside Rec.709 is cut at 0.
 void to_rec709(const Matrix3& matrix, std::vector<float>& cells) {
   for (std::size_t i = 0; i + 2 < cells.size(); i += 3) {
@@ -162,6 +161,7 @@ void to_rec709(const Matrix3& matrix, std::vector<float>& cells) {
   }
 }
 
+// With the medium's own coefficients, which multiply those of the cells.
 RgbGridMedium read_rgb_grid(ParameterList& p, MediumDescription& medium) {
   RgbGridMedium grid;
   grid.resolution = read_resolution(p);

@@ -175,6 +175,12 @@ TEST(MediaSets, OpenBoundariesAreFound) {
   EXPECT_FALSE(has_open_boundary(view({fog}, {can})));
   std::get<CylinderShape>(can.kind).phi_max = 200;
   EXPECT_TRUE(has_open_boundary(view({fog}, {can})));
+  SceneDescription placed = view({fog}, {});
+  placed.objects = {{"can", {can}}};
+  placed.instances.emplace_back();
+  placed.instances[0].object = "can";
+  placed.instances[0].world_from_object = translate({0, 5, 0});
+  EXPECT_TRUE(has_open_boundary(placed));
   ShapeDescription box = box_shape(lo, hi, "fog");
   box.material = DielectricMaterial{};
   EXPECT_FALSE(has_open_boundary(view({fog}, {box})));
