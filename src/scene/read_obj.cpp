@@ -137,12 +137,13 @@ class ObjReader {
 
 }  // namespace
 
-ObjMesh read_obj(const std::string& path) {
-  std::string text = read_file_unpacked(path);
+ObjMesh read_obj(const std::string& path) { return read_obj_text(path, read_file_unpacked(path)); }
+
+ObjMesh read_obj_text(const std::string& name, std::string text) {
   try {
-    return read_within_memory(path, [&] { return ObjReader(text).take(); });
+    return read_within_memory(name, [&] { return ObjReader(text).take(); });
   } catch (const Fault& fault) {
-    throw InputError(path, fault.message);
+    throw InputError(name, fault.message);
   }
 }
 

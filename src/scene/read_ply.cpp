@@ -166,6 +166,14 @@ void read_element(const Element& element, Values& source, std::vector<double>& v
   }
 }
 
+// Of what is claimed only: text can be packed a thousandfold.
+void check_count(const Element& element, std::size_t bytes_each) {
+  constexpr std::size_t most = std::size_t{1} << 40;
+  if (element.count > most || !can_hold(static_cast<std::int64_t>(element.count * bytes_each)))
+    throw Fault{
+        fmt::format("has {} of element \"{}\", which take more than half of the memory", element.count, element.name)};
+}
+
 void read_vertices(const Element& element, Values& source, TriangleMeshShape& mesh) {
   std::array<int, 8> where{};
   static constexpr std::string_view names[] = {"x", "y", "z", "nx", "ny", "nz"};
@@ -182,6 +190,7 @@ void read_vertices(const Element& element, Values& source, TriangleMeshShape& me
   const bool has_normals = std::min({where[3], where[4], where[5]}) >= 0;
   std::vector<double> values(element.properties.size()), list;
   const auto at = [&](std::size_t i) { return values[static_cast<std::size_t>(where[i])]; };
+  check_count(element, 2 * sizeof(Vector3));
   for (std::size_t i = 0; i < element.count; ++i) {
     read_element(element, source, values, -1, list);
     mesh.positions.push_back(finite(at(0), at(1), at(2)));
@@ -196,6 +205,7 @@ void read_faces(const Element& element, Values& source, PlyMesh& ply) {
   if (corners < 0 || !element.properties[static_cast<std::size_t>(corners)].count_type)
     throw Fault{"has faces without a list vertex_indices"};
   std::vector<double> values(element.properties.size()), list;
+  check_count(element, 2 * sizeof(std::array<std::uint32_t, 3>));
   for (std::size_t i = 0; i < element.count; ++i) {
     read_element(element, source, values, corners, list);
     std::array<std::uint32_t, 4> v{};

@@ -1,6 +1,7 @@
 #include "fuzz/targets.h"
 
 #include "base/gzip.h"
+#include "scene/read_obj.h"
 #include "scene/read_ply.h"
 #include "scene/read_scene.h"
 #include "volume/formats.h"
@@ -23,6 +24,8 @@ void read_as_scene(std::string_view bytes) {
 
 void read_as_ply(std::string_view bytes) { read_ply_bytes("fuzz", bytes); }
 
+void read_as_obj(std::string_view bytes) { read_obj_text("fuzz", std::string(bytes)); }
+
 void read_as_vol(std::string_view bytes) {
   list_vol("fuzz", bytes);
   read_vol("fuzz", bytes, 0, Storage::u8);
@@ -41,8 +44,11 @@ void run(std::string_view bytes) {
 }  // namespace
 
 const std::vector<FuzzTarget>& fuzz_targets() {
-  static const std::vector<FuzzTarget> all = {
-      {"scene", run<read_as_scene>}, {"ply", run<read_as_ply>}, {"vol", run<read_as_vol>}, {"gzip", run<read_as_gzip>}};
+  static const std::vector<FuzzTarget> all = {{"scene", run<read_as_scene>},
+                                              {"ply", run<read_as_ply>},
+                                              {"obj", run<read_as_obj>},
+                                              {"vol", run<read_as_vol>},
+                                              {"gzip", run<read_as_gzip>}};
   return all;
 }
 

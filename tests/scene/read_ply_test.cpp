@@ -114,7 +114,9 @@ TEST_F(Ply, BrokenFilesAreRefusedWithAReason) {
   EXPECT_EQ(with("vertex 5", "vertex many"), "has an element \"vertex\" without a count");
   EXPECT_EQ(with("property float x\n", ""), "has vertices without x, y and z");
   EXPECT_EQ(with("vertex_indices", "corners"), "has faces without a list vertex_indices");
-  EXPECT_EQ(with("vertex 5", "vertex 5000000000000"), "ends before its last value");
+  EXPECT_EQ(with("vertex 5", "vertex 5000000"), "ends before its last value");
+  EXPECT_EQ(with("vertex 5", "vertex 5000000000000"),
+            "has 5000000000000 of element \"vertex\", which take more than half of the memory");
   EXPECT_EQ(with("4.0000", "four"), "has \"four00\" where a number should be");
   EXPECT_EQ(with("4.000000", "1e39"), "has a vertex that is not finite");
   EXPECT_EQ(with("4.000000", "nan"), "has a vertex that is not finite");
