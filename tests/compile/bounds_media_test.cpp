@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "compile/triangles_apart.h"
 #include "render/scenes.h"
 
 namespace brume {
@@ -20,15 +21,9 @@ TEST(BoundsMedia, ClosedShapesEncloseTheirInside) {
   EXPECT_TRUE(is_closed(box()));
   EXPECT_TRUE(is_closed(shape_of(SphereShape{})));
   EXPECT_TRUE(is_closed(shape_of(CylinderShape{.caps = true})));
-  // Vertices of their own for each triangle.
   ShapeDescription apart = box();
-  TriangleMeshShape soup;
-  for (const auto& t : mesh_of(apart).triangles) {
-    const auto first = static_cast<std::uint32_t>(soup.positions.size());
-    for (const std::uint32_t v : t) soup.positions.push_back(mesh_of(apart).positions[v]);
-    soup.triangles.push_back({first, first + 1, first + 2});
-  }
-  EXPECT_TRUE(is_closed(shape_of(soup)));
+  mesh_of(apart) = triangles_apart(mesh_of(apart));
+  EXPECT_TRUE(is_closed(apart));
   // A box of patches.
   BilinearMeshShape patches;
   for (int i = 0; i < 8; ++i) patches.positions.push_back({1.0 * (i & 1), 1.0 * (i >> 1 & 1), 1.0 * (i >> 2)});

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "compile/compile.h"
+#include "compile/triangles_apart.h"
 #include "render/scenes.h"
 
 namespace brume {
@@ -39,15 +40,8 @@ TEST(Regions, ClosedBoxesBecomeVolumes) {
   reversed.reverse_orientation = true;
   for (auto& t : mesh_of(reversed).triangles) std::swap(t[1], t[2]);
   EXPECT_EQ(volumes(view(reversed)), 1u);
-  // Vertices of their own for each triangle.
   ShapeDescription apart = box();
-  TriangleMeshShape soup;
-  for (const auto& t : mesh_of(apart).triangles) {
-    const auto first = static_cast<std::uint32_t>(soup.positions.size());
-    for (const std::uint32_t v : t) soup.positions.push_back(mesh_of(apart).positions[v]);
-    soup.triangles.push_back({first, first + 1, first + 2});
-  }
-  mesh_of(apart) = soup;
+  mesh_of(apart) = triangles_apart(mesh_of(apart));
   EXPECT_EQ(volumes(view(apart)), 1u);
 }
 

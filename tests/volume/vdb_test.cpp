@@ -170,6 +170,26 @@ TEST(Vdb, FilesThatAreNoneAreRefusedWithAReason) {
   EXPECT_THAT(error_of("cloud.exr"), HasSubstr("volume files end in .vdb, .nvdb or .vol, not in \".exr\""));
 }
 
+// A directory that would have the same bytes read over and over.
+TEST(Vdb, DirectoriesThatClaimTooMuchAreRefused) {
+  const std::string path = temporary_file("claims.vdb"), type = "Tree_float_5_4_3";
+  write_vdb(path, {});
+  const std::string good = read_bytes(path);
+  const std::size_t at_type = good.find(type), at_name = good.find("density");
+  ASSERT_NE(at_type, std::string::npos);
+  ASSERT_LT(at_name, at_type);
+  const auto error_with = [&](std::size_t at, std::string_view patch) {
+    std::string bytes = good;
+    bytes.replace(at, patch.size(), patch);
+    write_bytes(path, bytes);
+    return error_of(path);
+  };
+  constexpr std::string_view many("\xe9\x03\0\0", 4), nowhere("\0\0\0\0\0\0\0\0", 8);
+  // Before the name stand the number of grids and its own length; after the type, the length of an empty name.
+  EXPECT_THAT(error_with(at_name - 8, many), HasSubstr("said to hold 1001 grids; at most 1000 are read"));
+  EXPECT_THAT(error_with(at_type + type.size() + 4, nowhere), HasSubstr("does not follow its description"));
+}
+
 TEST(Vdb, HalvesBecomeTheirFloats) {
   EXPECT_EQ(half_to_float(0x0000), 0.0f);
   EXPECT_EQ(half_to_float(0x0001), 0x1p-24f);
