@@ -41,6 +41,7 @@ const char* const help_text =
   --exposure STOPS       .png files brighter, or below 0 darker, by powers of 2
   --integrator NAME      instead of the scene's
   --grid NAME            of a volume; default "density", or the only one
+  --sanitize             of a volume: values that are no density are 0
   --write-scene FILE     save the scene as .pbrt; without -o do no more
   --write-partial-images write the picture so far every few seconds
   --variance             each pixel's variance too (.exr), for brume compare
@@ -63,8 +64,8 @@ struct Arguments {
   int threads = 0;
   double seconds = 0;  // 0: no limit
   double exposure = 0;
-  bool example = false, strict = false, partial_images = false, variance = false, stats = false, quiet = false,
-       help = false, version = false;
+  bool sanitize = false, example = false, strict = false, partial_images = false, variance = false, stats = false,
+       quiet = false, help = false, version = false;
   brume::SceneOptions changes;
 };
 
@@ -108,6 +109,7 @@ Arguments parse_arguments(const std::vector<std::string>& given) {
   line.option("--exposure", exposure);
   line.option("--integrator", a.changes.integrator);
   line.option("--grid", a.grid);
+  line.flag("--sanitize", a.sanitize);
   line.option("--write-scene", a.write_scene);
   line.flag("--example", a.example);
   line.flag("--strict", a.strict);
@@ -136,7 +138,8 @@ Arguments parse_arguments(const std::vector<std::string>& given) {
   if (a.files.empty() && !a.example)
     throw UsageError("a scene or a volume to render is missing; brume --help shows how");
   if (!a.files.empty() && a.example) throw UsageError("--example takes no scene or volume");
-  if (!a.grid.empty() && a.files.size() != 1) throw UsageError("--grid is for a volume file");
+  if ((!a.grid.empty() || a.sanitize) && a.files.size() != 1)
+    throw UsageError("--grid and --sanitize are for one volume file");
   return a;
 }
 
@@ -146,7 +149,7 @@ void say(const Arguments& a, const std::string& line) {
 
 brume::Scene load(const Arguments& a) {
   if (a.example) return brume::Scene::example();
-  if (!a.grid.empty()) return brume::Scene::frame_volume(a.files[0], a.grid);
+  if (!a.grid.empty() || a.sanitize) return brume::Scene::frame_volume(a.files[0], a.grid, a.sanitize);
   std::vector<std::string> warnings;
   brume::Scene scene = brume::Scene::load_files(a.files, warnings, a.strict);
   for (const std::string& warning : warnings) say(a, warning);

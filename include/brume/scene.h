@@ -45,8 +45,9 @@ class Scene {
   static Scene load_files(const std::vector<std::string>& paths, std::vector<std::string>& warnings,
                           bool strict = false);
   // A volume on its own: the grid framed by a camera, lit by sun and sky, its extinction scaled to the optical depth
-  // that framing_note() states. `grid` empty: "density", or the only grid that can be rendered.
-  static Scene frame_volume(const std::string& path, const std::string& grid = {});
+  // that framing_note() states. `grid` empty: "density", or the only grid that can be rendered. Values that are
+  // negative or not finite are an error, or 0 where `sanitize`.
+  static Scene frame_volume(const std::string& path, const std::string& grid = {}, bool sanitize = false);
   // The built-in example: a procedural cloud over a ground.
   static Scene example();
 

@@ -19,7 +19,7 @@ namespace {
 
 // Where a medium's grid comes from, as text: media that say the same share the grid.
 std::string grid_key(const MediumDescription& medium, const std::string& file_grid) {
-  const std::string lookup = fmt::format("{} {}", medium.storage_bits, medium.linear_interpolation);
+  const std::string lookup = fmt::format("{} {} {}", medium.storage_bits, medium.linear_interpolation, medium.sanitize);
   if (const auto* file = std::get_if<FileMedium>(&medium.kind))
     return fmt::format("file {}\n{}\n{}", file->filename, file_grid, lookup);
   if (const auto* made = std::get_if<ProceduralMedium>(&medium.kind)) {
@@ -40,6 +40,10 @@ VolumeGrid make_uniform_grid(const UniformGridMedium& u, const std::vector<float
 }
 
 Storage storage_of(const MediumDescription& medium) { return static_cast<Storage>(medium.storage_bits); }
+
+GridReading reading_of(const MediumDescription& medium) {
+  return {storage_of(medium), medium.sanitize ? BadValues::taken_as_0 : BadValues::rejected};
+}
 
 // Small enough to stay in the second cache of a core. (With 64 KB cells are half as large again along each edge and a
 // path takes as long: it steps less and looks up more.)
@@ -154,6 +158,7 @@ Compiler::LoadedGrid Compiler::loaded_grid(const MediumDescription& medium, cons
   try {
     if (std::optional<VolumeGrid> grid = load()) {
       loaded = {static_cast<int>(compiled_.grids.size()), grid->medium_from_index};
+      if (!grid->warning.empty()) warnings_.push_back({Severity::warning, medium.location, grid->warning, {}});
       const bool bordered =
           compiled_.integrator.kind == CompiledIntegrator::Kind::classic && medium.linear_interpolation;
       compiled_.grids.push_back(compile_grid(std::move(*grid), medium.linear_interpolation,
@@ -171,8 +176,8 @@ Compiler::LoadedGrid Compiler::loaded_grid(const MediumDescription& medium, cons
 Compiler::LoadedGrid Compiler::density_grid(const MediumDescription& medium) {
   const auto* file = std::get_if<FileMedium>(&medium.kind);
   return loaded_grid(medium, grid_key(medium, file ? file->grid : ""), [&]() -> std::optional<VolumeGrid> {
+    if (file) return read_volume(file->filename, file->grid, reading_of(medium));
     const Storage storage = storage_of(medium);
-    if (file) return read_volume(file->filename, file->grid, storage);
     if (const auto* made = std::get_if<ProceduralMedium>(&medium.kind))
       return procedural_density(made->procedural, storage, threads_);
     if (const auto* noise = std::get_if<CloudMedium>(&medium.kind))
@@ -187,10 +192,10 @@ Compiler::LoadedGrid Compiler::temperature_grid(const MediumDescription& medium)
   const auto* file = std::get_if<FileMedium>(&medium.kind);
   const std::string key = fmt::format("temperature {}", grid_key(medium, file ? file->temperature_grid : ""));
   return loaded_grid(medium, key, [&]() -> std::optional<VolumeGrid> {
-    const Storage storage = storage_of(medium);
     if (file)
-      return file->temperature_asked_for ? read_volume(file->filename, file->temperature_grid, storage)
-                                         : find_volume(file->filename, file->temperature_grid, storage);
+      return file->temperature_asked_for ? read_volume(file->filename, file->temperature_grid, reading_of(medium))
+                                         : find_volume(file->filename, file->temperature_grid, reading_of(medium));
+    const Storage storage = storage_of(medium);
     if (const auto* made = std::get_if<ProceduralMedium>(&medium.kind))
       return procedural_temperature(made->procedural, storage, threads_);
     const auto& uniform = std::get<UniformGridMedium>(medium.kind);

@@ -152,6 +152,7 @@ struct MediumDescription {
   std::vector<float> phase_parameters = {0};    // in the order of the phase function's table
   bool linear_interpolation = true;
   int storage_bits = 16;  // 8, 16 or 32
+  bool sanitize = false;  // whether densities of files that are negative or not finite are taken as 0
   std::variant<HomogeneousMedium, UniformGridMedium, FileMedium, ProceduralMedium, CloudMedium, RgbGridMedium> kind;
   Location location;
 };

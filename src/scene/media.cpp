@@ -26,10 +26,10 @@ Spectrum scaled(ParameterList& p, double factor, const Spectrum& colour, std::st
 }
 
 std::vector<float> read_cells(ParameterList& p, std::string_view name, const std::array<int, 3>& resolution,
-                              const Range& range, ParameterType type) {
+                              const CellRange& allowed, ParameterType type) {
   Parameter* parameter = p.find(type, name);
   if (!parameter) return {};
-  const std::vector<double>& values = parameter->numbers;
+  std::vector<double>& values = parameter->numbers;
   const std::int64_t cells = std::int64_t{resolution[0]} * resolution[1] * resolution[2];
   const std::size_t a_cell = type == ParameterType::rgb ? 3 : 1;
   // Compared by division: the number of cells may be more than can be counted three times over.
@@ -41,10 +41,18 @@ std::vector<float> read_cells(ParameterList& p, std::string_view name, const std
                                                           : fmt::format("{} numbers", values.size())));
     return {};
   }
-  const auto wrong = std::find_if(values.begin(), values.end(), [&](double v) { return !range.holds(v); });
-  if (wrong != values.end())
-    p.value_error(*parameter, static_cast<std::size_t>(wrong - values.begin()),
-                  fmt::format("{}, found {}", range.text(), *wrong));
+  const auto is_wrong = [&](double v) { return !allowed.range.holds(v); };
+  if (const auto wrong = std::count_if(values.begin(), values.end(), is_wrong); wrong > 0) {
+    const auto first = std::find_if(values.begin(), values.end(), is_wrong);
+    const auto index = static_cast<std::size_t>(first - values.begin());
+    const std::string found = fmt::format("{}, found {}{}", allowed.range.text(), *first,
+                                          wrong > 1 ? fmt::format(", the first of {} such values", wrong) : "");
+    if (allowed.sanitize)
+      p.value_warning(*parameter, index, fmt::format("{}; taken as 0", found));
+    else
+      p.value_error(*parameter, index, found);
+    std::replace_if(values.begin(), values.end(), is_wrong, 0);
+  }
   std::vector<float> result(values.size());
   std::transform(values.begin(), values.end(), result.begin(), [](double v) { return static_cast<float>(v); });
   parameter->numbers = {};
@@ -127,12 +135,12 @@ std::array<int, 3> read_resolution(ParameterList& p) {
   return resolution;
 }
 
-UniformGridMedium read_uniform_grid(ParameterList& p) {
+UniformGridMedium read_uniform_grid(ParameterList& p, bool sanitize) {
   UniformGridMedium grid;
   grid.resolution = read_resolution(p);
   read_box(p, grid.p0, grid.p1);
   p.require(ParameterType::float_, "density");
-  grid.density = read_cells(p, "density", grid.resolution, Range::at_least(0));
+  grid.density = read_cells(p, "density", grid.resolution, {Range::at_least(0), sanitize});
   return grid;
 }
 
@@ -169,7 +177,8 @@ RgbGridMedium read_rgb_grid(ParameterList& p, MediumDescription& medium) {
   const auto read = [&](std::string_view name, Whites whites) {
     const Parameter* given = p.find(ParameterType::rgb, name);
     const ColourSpace space = given ? given->space : ColourSpace::srgb;
-    std::vector<float> cells = read_cells(p, name, grid.resolution, Range::at_least(0), ParameterType::rgb);
+    std::vector<float> cells =
+        read_cells(p, name, grid.resolution, {Range::at_least(0), medium.sanitize}, ParameterType::rgb);
     if (space != ColourSpace::srgb) to_rec709(rec709_from(space, whites), cells);
     return cells;
   };
@@ -230,10 +239,12 @@ void Reader::make_named_medium() {
   if (type != "rgbgrid") read_coefficients(p, medium, type == "homogeneous");
   read_phase(p, medium);
   if (type != "homogeneous") read_grid_settings(p, medium);
+  // What is computed has no bad values.
+  if (type != "homogeneous" && type != "procedural" && type != "cloud") medium.sanitize = p.boolean("sanitize", false);
   if (type == "homogeneous") {
     medium.kind = HomogeneousMedium{};
   } else if (type == "uniformgrid") {
-    medium.kind = read_uniform_grid(p);
+    medium.kind = read_uniform_grid(p, medium.sanitize);
   } else if (type == "procedural") {
     medium.kind = read_procedural(p);
   } else if (type == "rgbgrid") {

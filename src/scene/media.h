@@ -13,10 +13,16 @@ namespace brume {
 // The product of a factor and a colour, which must fit floats; `what` is its name in the error.
 Spectrum scaled(ParameterList& p, double factor, const Spectrum& colour, std::string_view what);
 
+// The values that cells may have, and whether others are taken as 0, with a warning, or are an error.
+struct CellRange {
+  Range range;
+  bool sanitize = false;
+};
+
 // One value for each cell, or three where the type is rgb, x fastest, from a parameter of many; empty where it is
 // missing or at fault.
 std::vector<float> read_cells(ParameterList& p, std::string_view name, const std::array<int, 3>& resolution,
-                              const Range& range, ParameterType type = ParameterType::float_);
+                              const CellRange& allowed, ParameterType type = ParameterType::float_);
 
 // Le, Lescale and what makes emission of temperatures, of a medium whose kind has been read.
 void read_emission(ParameterList& p, MediumDescription& medium);

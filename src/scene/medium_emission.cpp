@@ -25,7 +25,7 @@ void exclude_emission(ParameterList& p, bool has_le, std::string_view what) {
 bool find_temperatures(ParameterList& p, bool has_le, UniformGridMedium& grid) {
   const bool has = p.has(ParameterType::float_, "temperature");
   if (has) exclude_emission(p, has_le, "temperature");
-  grid.temperature = read_cells(p, "temperature", grid.resolution, Range::any());
+  grid.temperature = read_cells(p, "temperature", grid.resolution, {Range::any()});
   return has;
 }
 
@@ -58,7 +58,7 @@ double read_strength(ParameterList& p, MediumDescription& medium) {
   auto* grid = std::get_if<UniformGridMedium>(&medium.kind);
   const Parameter* scale = p.find(ParameterType::float_, "Lescale");
   if (!grid || !scale || scale->numbers.size() == 1) return p.number("Lescale", 1, Range::at_least(0));
-  grid->strength = read_cells(p, "Lescale", grid->resolution, Range::at_least(0));
+  grid->strength = read_cells(p, "Lescale", grid->resolution, {Range::at_least(0), medium.sanitize});
   return 1;
 }
 

@@ -221,6 +221,11 @@ void ParameterList::value_error(const Parameter& parameter, std::size_t index, c
                   fmt::format("{} of {} {}", declaration(parameter), owner_, message));
 }
 
+void ParameterList::value_warning(const Parameter& parameter, std::size_t index, const std::string& message) {
+  messages_.warning(place_of_value(parameter, index),
+                    fmt::format("{} of {} {}", declaration(parameter), owner_, message));
+}
+
 Place ParameterList::place_of(ParameterType type, std::string_view name) {
   const Parameter* p = given(type, name);
   return p ? p->first_value : place_;

@@ -109,6 +109,7 @@ class ParameterList {
   void warning(const Place& place, const std::string& message) { messages_.warning(place, message); }
   // An error about a parameter's value: `"float fov" of Camera "perspective" MESSAGE`, at the value where it is known.
   void value_error(const Parameter& parameter, std::size_t index, const std::string& message);
+  void value_warning(const Parameter& parameter, std::size_t index, const std::string& message);
   // The place of a parameter's first value, or of the directive where there is none.
   Place place_of(ParameterType type, std::string_view name);
   // An error where a parameter that must be there is not; nothing where its values were found faulty.

@@ -184,6 +184,7 @@ class Writer {
     if (!std::holds_alternative<HomogeneousMedium>(m.kind))
       line("  \"string interpolation\" \"{}\" \"string storage\" \"{}\"", m.linear_interpolation ? "linear" : "nearest",
            storage_names[static_cast<std::size_t>(m.storage_bits / 16)]);
+    if (m.sanitize) line("  \"bool sanitize\" true");
     if (moved) end_block();
   }
 

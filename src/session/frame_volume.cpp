@@ -134,8 +134,9 @@ double fov_for(const Framing& framing, int width, int height) {
   return 2 * std::atan(half) * 180 / std::numbers::pi;
 }
 
-FramedVolume frame_volume(const std::string& path, const std::string& grid_name) {
-  const VolumeGrid grid = read_volume(path, grid_name, Storage::u16);
+FramedVolume frame_volume(const std::string& path, const std::string& grid_name, bool sanitize) {
+  const VolumeGrid grid =
+      read_volume(path, grid_name, {Storage::u16, sanitize ? BadValues::taken_as_0 : BadValues::rejected});
   const std::vector<Box3> boxes = occupied_boxes(grid);
   if (boxes.empty()) throw InputError(path, fmt::format("grid {} is empty: there is nothing to show", grid.name));
   Box3 whole;
@@ -157,6 +158,7 @@ FramedVolume frame_volume(const std::string& path, const std::string& grid_name)
   const int axis = axis_along(grid.medium_from_index, view.forward);
   const double row = densest_row(grid, axis) * voxel[axis];
   scene.media.push_back(make_medium(path, grid, optical_depth / row));
+  scene.media.back().sanitize = sanitize;
   scene.shapes.push_back(whole_medium(scene.media.back().name));
   scene.lights = sun_and_sky(view);
 

@@ -20,8 +20,9 @@ struct FramedVolume {
   std::string note;  // one line: what was read and how it was scaled
 };
 
-// Frames a grid of a volume file; `grid` empty chooses as read_volume does. Throws InputError.
-FramedVolume frame_volume(const std::string& path, const std::string& grid);
+// Frames a grid of a volume file; `grid` empty chooses as read_volume does; where `sanitize`, values that no density
+// can have are taken as 0. Throws InputError.
+FramedVolume frame_volume(const std::string& path, const std::string& grid, bool sanitize);
 
 // The field of view, as CameraDescription has it, at which a picture of this size shows the whole framing.
 double fov_for(const Framing& framing, int width, int height);

@@ -115,12 +115,14 @@ Scene Scene::load_files(const std::vector<std::string>& paths, std::vector<std::
   });
 }
 
-Scene Scene::frame_volume(const std::string& path, const std::string& grid) {
+Scene Scene::frame_volume(const std::string& path, const std::string& grid, bool sanitize) {
   return with_public_errors([&] {
     const Stopwatch watch;
     if (!is_volume_file(path))
-      throw InputError(path, fmt::format("not a volume file, whose suffix would be {}", volume_suffixes));
-    FramedVolume framed = brume::frame_volume(path, grid);
+      throw InputError(path, fmt::format("not a volume file, whose suffix would be {}; a scene says of each medium "
+                                         "which grid it is, and whether to sanitize it",
+                                         volume_suffixes));
+    FramedVolume framed = brume::frame_volume(path, grid, sanitize);
     return Scene(std::make_unique<Contents>(
         Contents{std::move(framed.scene), framed.framing, std::move(framed.note), watch.seconds()}));
   });

@@ -134,7 +134,7 @@ Transform world_from_lattice(const nanovdb::Map& map) {
 }
 
 template <class BuildT>
-VolumeGrid read_tree(const ByteReader& reader, const NvdbGrid& grid, Storage storage) {
+VolumeGrid read_tree(const ByteReader& reader, const NvdbGrid& grid, GridReading reading) {
   const nanovdb::GridData data = read_nvdb_grid_data(reader, grid);
   const std::vector<NvdbBlock> buffer = read_nvdb_buffer(reader, grid);
   NvdbTree<BuildT> tree(reader, buffer, grid.memory_size);
@@ -152,7 +152,7 @@ VolumeGrid read_tree(const ByteReader& reader, const NvdbGrid& grid, Storage sto
         active.add_leaf(origin, mask);
       });
 
-  LeafCollector collector(reader.file(), grid.name, active.box, storage, reader.size());
+  LeafCollector collector(reader.file(), grid.name, active.box, reading, reader.size());
   std::array<float, brick_voxels> values;
   tree.walk([&](Voxel origin, std::int64_t edge, float value, bool) { collector.tile(origin, edge, value); },
             [&](Voxel origin, const Leaf& leaf) {
@@ -196,7 +196,7 @@ std::string class_name(nanovdb::GridClass grid_class) {
   return fmt::format("class {}", static_cast<std::uint32_t>(grid_class));
 }
 
-using TreeReader = VolumeGrid (*)(const ByteReader&, const NvdbGrid&, Storage);
+using TreeReader = VolumeGrid (*)(const ByteReader&, const NvdbGrid&, GridReading);
 
 // Null for a type that is no scalar float.
 TreeReader reader_of(nanovdb::GridType type) {
@@ -238,10 +238,10 @@ std::vector<GridInfo> list_nvdb(const std::string& file, std::string_view bytes)
   return infos;
 }
 
-VolumeGrid read_nvdb(const std::string& file, std::string_view bytes, std::size_t index, Storage storage) {
+VolumeGrid read_nvdb(const std::string& file, std::string_view bytes, std::size_t index, GridReading reading) {
   ByteReader reader(file, bytes);
   const NvdbGrid grid = read_nvdb_directory(reader).at(index);
-  return reader_of(grid.type)(reader, grid, storage);
+  return reader_of(grid.type)(reader, grid, reading);
 }
 
 }  // namespace brume

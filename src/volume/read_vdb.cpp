@@ -179,12 +179,12 @@ std::vector<GridInfo> list_vdb(const std::string& file, std::string_view bytes) 
   return infos;
 }
 
-VolumeGrid read_vdb(const std::string& file, std::string_view bytes, std::size_t index, Storage storage) {
+VolumeGrid read_vdb(const std::string& file, std::string_view bytes, std::size_t index, GridReading reading) {
   ByteReader reader(file, bytes);
   const std::vector<VdbGrid> grids = read_vdb_directory(reader);
   const VdbGrid& grid = grids.at(index);
   const Topology topology = read_topology(reader, grids, grid);
-  LeafCollector collector(file, grid.name, topology.active.box, storage, bytes.size());
+  LeafCollector collector(file, grid.name, topology.active.box, reading, bytes.size());
   for (const Tile& tile : topology.tiles) collector.tile(tile.origin, tile.edge, tile.value);
 
   const VdbGrid& owner = tree_owner(reader, grids, grid);

@@ -115,9 +115,8 @@ float value_at(const VolFile& vol, std::size_t cell) {
   }
 }
 
-BrickGrid read_bricks(const std::string& file, const VolFile& vol, Storage storage) {
+BrickGrid read_bricks(const VolFile& vol, Storage storage, DensityCheck& check) {
   BrickGridBuilder builder(vol.voxels, storage);
-  DensityCheck check;
   std::array<float, brick_voxels> brick;
   const auto read_brick = [&](int bx, int by, int bz) {
     brick.fill(0);
@@ -128,15 +127,13 @@ BrickGrid read_bricks(const std::string& file, const VolFile& vol, Storage stora
               static_cast<std::size_t>(z) * static_cast<std::size_t>(vol.voxels[1]) + static_cast<std::size_t>(y);
           const float value =
               value_at(vol, row * static_cast<std::size_t>(vol.voxels[0]) + static_cast<std::size_t>(x));
-          check.check(value, {x, y, z});
-          brick[static_cast<std::size_t>((z & 7) * 64 + (y & 7) * 8 + (x & 7))] = value;
+          brick[static_cast<std::size_t>((z & 7) * 64 + (y & 7) * 8 + (x & 7))] = check.checked(value, {x, y, z});
         }
     if (!check.failed()) builder.set_brick({bx, by, bz}, brick);
   };
   for (int bz = 0; 8 * bz < vol.voxels[2]; ++bz)
     for (int by = 0; 8 * by < vol.voxels[1]; ++by)
       for (int bx = 0; 8 * bx < vol.voxels[0]; ++bx) read_brick(bx, by, bz);
-  check.finish(file, grid_name);
   return builder.finish();
 }
 
@@ -164,15 +161,17 @@ std::vector<GridInfo> list_vol(const std::string& file, std::string_view bytes) 
   return {info};
 }
 
-VolumeGrid read_vol(const std::string& file, std::string_view bytes, std::size_t, Storage storage) {
+VolumeGrid read_vol(const std::string& file, std::string_view bytes, std::size_t, GridReading reading) {
   const VolFile vol = read_header(file, bytes);
   VolumeGrid grid;
   grid.name = grid_name;
+  DensityCheck check(reading.bad_values);
   try {
-    grid.bricks = read_bricks(file, vol, storage);
+    grid.bricks = read_bricks(vol, reading.storage, check);
   } catch (const std::length_error& error) {
     throw InputError(file, error.what());
   }
+  grid.warning = check.finish(file, grid_name);
   grid.medium_from_index = world_from_index(vol);
   grid.support = Support::cut;
   return grid;

@@ -14,7 +14,7 @@ namespace {
 struct Format {
   std::string_view suffix;
   std::vector<GridInfo> (*list)(const std::string& file, std::string_view bytes);
-  VolumeGrid (*read)(const std::string& file, std::string_view bytes, std::size_t index, Storage storage);
+  VolumeGrid (*read)(const std::string& file, std::string_view bytes, std::size_t index, GridReading reading);
 };
 constexpr Format formats[] = {
     {".vdb", list_vdb, read_vdb}, {".nvdb", list_nvdb, read_nvdb}, {".vol", list_vol, read_vol}};
@@ -57,7 +57,12 @@ std::size_t choose_grid(const std::string& path, const std::vector<GridInfo>& gr
   if (!name.empty()) {
     const std::size_t named = find_grid(grids, name);
     if (named < grids.size()) return named;
-    throw InputError(path, fmt::format("has no grid \"{}\"; it has {}", name, list_of_names(grids)));
+    std::vector<std::string_view> names;
+    for (const GridInfo& grid : grids) names.push_back(grid.name);
+    const std::string_view nearest = nearest_name(name, names);
+    throw GridError(
+        path, fmt::format("has no grid \"{}\"; {}it has {}", name,
+                          nearest.empty() ? "" : fmt::format("did you mean \"{}\"? ", nearest), list_of_names(grids)));
   }
   const std::size_t density = find_grid(grids, "density");
   if (density < grids.size()) return density;
@@ -68,17 +73,17 @@ std::size_t choose_grid(const std::string& path, const std::vector<GridInfo>& gr
     ++renderable;
   }
   if (renderable == 1) return only;
-  throw InputError(path, fmt::format("{}; it has {}",
-                                     renderable == 0 ? "has no grid that could be a density"
-                                                     : "has several grids that could be the density: name one",
-                                     list_of_names(grids)));
+  throw GridError(path, fmt::format("{}; it has {}",
+                                    renderable == 0 ? "has no grid that could be a density"
+                                                    : "has several grids that could be the density: name one",
+                                    list_of_names(grids)));
 }
 
 VolumeGrid read_grid(const Format& format, const std::string& path, std::string_view bytes,
-                     const std::vector<GridInfo>& grids, std::size_t index, Storage storage) {
+                     const std::vector<GridInfo>& grids, std::size_t index, GridReading reading) {
   const GridInfo& grid = grids.at(index);
-  if (!grid.renderable) throw InputError(path, fmt::format("grid \"{}\" cannot be rendered: {}", grid.name, grid.note));
-  return format.read(path, bytes, index, storage);
+  if (!grid.renderable) throw GridError(path, fmt::format("grid \"{}\" cannot be rendered: {}", grid.name, grid.note));
+  return format.read(path, bytes, index, reading);
 }
 
 void note_repeated_names(std::vector<GridInfo>& grids) {
@@ -104,26 +109,26 @@ std::vector<GridInfo> list_grids(const std::string& path) {
   return grids;
 }
 
-VolumeGrid read_volume(const std::string& path, const std::string& name, Storage storage) {
+VolumeGrid read_volume(const std::string& path, const std::string& name, GridReading reading) {
   const Format& format = format_of(path);
   const std::string bytes = read_file(path);
   const std::vector<GridInfo> grids = format.list(path, bytes);
-  return read_grid(format, path, bytes, grids, choose_grid(path, grids, name), storage);
+  return read_grid(format, path, bytes, grids, choose_grid(path, grids, name), reading);
 }
 
-VolumeGrid read_volume(const std::string& path, std::size_t index, Storage storage) {
+VolumeGrid read_volume(const std::string& path, std::size_t index, GridReading reading) {
   const Format& format = format_of(path);
   const std::string bytes = read_file(path);
-  return read_grid(format, path, bytes, format.list(path, bytes), index, storage);
+  return read_grid(format, path, bytes, format.list(path, bytes), index, reading);
 }
 
-std::optional<VolumeGrid> find_volume(const std::string& path, const std::string& name, Storage storage) {
+std::optional<VolumeGrid> find_volume(const std::string& path, const std::string& name, GridReading reading) {
   const Format& format = format_of(path);
   const std::string bytes = read_file(path);
   const std::vector<GridInfo> grids = format.list(path, bytes);
   const std::size_t found = find_grid(grids, name);
   if (found == grids.size() || !grids[found].renderable) return std::nullopt;
-  return format.read(path, bytes, found, storage);
+  return format.read(path, bytes, found, reading);
 }
 
 }  // namespace brume

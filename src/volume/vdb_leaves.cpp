@@ -91,12 +91,13 @@ void describe_placement(GridInfo& info, const ActiveVoxels& active, const Transf
 }
 
 LeafCollector::LeafCollector(const std::string& file, const std::string& grid_name, const VoxelBox& active,
-                             Storage storage, std::size_t file_bytes)
+                             GridReading reading, std::size_t file_bytes)
     : file_(file),
       grid_name_(grid_name),
       active_(active),
       origin_(array_origin(active)),
-      builder_(make_builder(file, grid_name, active, storage, file_bytes)) {}
+      builder_(make_builder(file, grid_name, active, reading.storage, file_bytes)),
+      check_(reading.bad_values) {}
 
 void LeafCollector::leaf(Voxel origin, std::span<const float, brick_voxels> values) {
   std::array<std::int64_t, 3> begin{}, end{};  // of the leaf's part that is in the active box
@@ -109,9 +110,8 @@ void LeafCollector::leaf(Voxel origin, std::span<const float, brick_voxels> valu
   for (std::int64_t x = begin[0]; x < end[0]; ++x) {
     for (std::int64_t y = begin[1]; y < end[1]; ++y) {
       for (std::int64_t z = begin[2]; z < end[2]; ++z) {
-        const float value = values[static_cast<std::size_t>(x * 64 + y * 8 + z)];
-        check_.check(value, {origin[0] + x, origin[1] + y, origin[2] + z}, 1);
-        brick[static_cast<std::size_t>(z * 64 + y * 8 + x)] = value;
+        brick[static_cast<std::size_t>(z * 64 + y * 8 + x)] = check_.checked(
+            values[static_cast<std::size_t>(x * 64 + y * 8 + z)], {origin[0] + x, origin[1] + y, origin[2] + z});
       }
     }
   }
@@ -127,8 +127,8 @@ void LeafCollector::tile(Voxel origin, std::int64_t edge, float value) {
     end[axis] = std::min(origin[axis] + edge, active_.hi[axis] + 1);
     if (begin[axis] >= end[axis]) return;
   }
-  check_.check(value, begin, (end[0] - begin[0]) * (end[1] - begin[1]) * (end[2] - begin[2]));
-  if (check_.failed()) return;
+  value = check_.checked(value, begin, (end[0] - begin[0]) * (end[1] - begin[1]) * (end[2] - begin[2]));
+  if (value == 0 || check_.failed()) return;
   std::array<float, brick_voxels> values;
   values.fill(value);
   Voxel brick;
@@ -164,7 +164,8 @@ void LeafCollector::with_length_checked(const Set& set) {
 }
 
 VolumeGrid LeafCollector::finish(const Transform& world_from_lattice) {
-  check_.finish(file_, grid_name_);
+  VolumeGrid grid;
+  grid.warning = check_.finish(file_, grid_name_);
   for (const auto& row : world_from_lattice.m) {
     for (const double element : row) {
       if (!std::isfinite(element)) {
@@ -175,7 +176,6 @@ VolumeGrid LeafCollector::finish(const Transform& world_from_lattice) {
   if (const double volume = world_from_lattice.determinant(); !(std::fabs(volume) > 0) || !std::isfinite(1 / volume)) {
     throw InputError(file_, fmt::format("grid \"{}\": its transform cannot be inverted", grid_name_));
   }
-  VolumeGrid grid;
   grid.name = grid_name_;
   grid.bricks = builder_.finish();
   Vector3 shift;  // a value sits at its integer coordinate there, at the middle of its voxel here

@@ -35,7 +35,7 @@ class LeafCollector {
  public:
   // `file` and `grid_name` are for messages. `file_bytes` bounds the memory for bricks: 64 table words a byte of the
   // file, and 2^22 in any case. Throws InputError where the box is empty or needs more.
-  LeafCollector(const std::string& file, const std::string& grid_name, const VoxelBox& active, Storage storage,
+  LeafCollector(const std::string& file, const std::string& grid_name, const VoxelBox& active, GridReading reading,
                 std::size_t file_bytes);
 
   // Takes the 512 values of the leaf that begins at `origin`, z fastest as these formats have them. Each leaf once.

@@ -14,8 +14,19 @@ enum class Support {
   fade,  // linear interpolation fades to 0 over half a voxel beyond the outermost values' voxels: .vdb and .nvdb
 };
 
+// What becomes of values that no density can have: negative ones and those that are not finite.
+enum class BadValues { rejected, taken_as_0 };
+
+// How the values of a file's grid are read.
+struct GridReading {
+  GridReading(Storage kept_as, BadValues bad = BadValues::rejected) : storage(kept_as), bad_values(bad) {}
+  Storage storage;
+  BadValues bad_values;
+};
+
 struct VolumeGrid {
   std::string name;
+  std::string warning;  // about values that were taken as 0, or ""
   BrickGrid bricks;
   // Index coordinates (voxel (i, j, k) is the cube from (i, j, k) to (i+1, j+1, k+1), its value at the centre) to the
   // space of the medium.

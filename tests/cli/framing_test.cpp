@@ -57,6 +57,27 @@ TEST(Framing, GoesToThePictureOfTheVolumesName) {
   EXPECT_THAT(folder.names(), ElementsAre("ellipsoid.png"));
 }
 
+TEST(Framing, BadValuesAreAnErrorUnlessSanitized) {
+  const TemporaryFolder folder;
+  std::string vol = make_vol(1, {8, 8, 8}, 1);
+  const float bad = -1;
+  vol.replace(48 + 4 * 100, 4, reinterpret_cast<const char*>(&bad), 4);
+  write_bytes_to(folder.file("a.vol"), vol);
+  const std::vector<std::string> render = {"a.vol", "--spp", "1", "--resolution", "9x6", "-o", "a.pfm"};
+  Outcome outcome = run(folder.path(), render);
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.error, HasSubstr("the first -1 at voxel (4, 4, 1)"));
+  EXPECT_THAT(outcome.error, HasSubstr("--sanitize"));
+  std::vector<std::string> sanitized = render;
+  for (const char* argument : {"--sanitize", "--write-scene", "a.pbrt"}) sanitized.emplace_back(argument);
+  outcome = run(folder.path(), sanitized);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+  EXPECT_THAT(outcome.error, HasSubstr("they are taken as 0"));
+  outcome = run(folder.path(), {"a.pbrt", "-o", "b.pfm"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+  EXPECT_EQ(bytes_of(folder.file("a.pfm")), bytes_of(folder.file("b.pfm")));
+}
+
 TEST(Framing, InfoAndAMissingGrid) {
   const TemporaryFolder folder;
   const Outcome info = run(folder.path(), {"info", volume});

@@ -25,6 +25,7 @@ void expect_equal(const MediumDescription& a, const MediumDescription& b) {
   EXPECT_EQ(a.phase_parameters, b.phase_parameters);
   EXPECT_EQ(a.linear_interpolation, b.linear_interpolation);
   EXPECT_EQ(a.storage_bits, b.storage_bits);
+  EXPECT_EQ(a.sanitize, b.sanitize);
   ASSERT_EQ(a.kind.index(), b.kind.index());
   if (const auto* grid = std::get_if<UniformGridMedium>(&a.kind)) {
     const auto& other = std::get<UniformGridMedium>(b.kind);

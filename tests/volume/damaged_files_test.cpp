@@ -14,7 +14,7 @@ namespace brume {
 namespace {
 
 using List = std::vector<GridInfo> (*)(const std::string& file, std::string_view bytes);
-using Read = VolumeGrid (*)(const std::string& file, std::string_view bytes, std::size_t index, Storage storage);
+using Read = VolumeGrid (*)(const std::string& file, std::string_view bytes, std::size_t index, GridReading reading);
 
 struct Format {
   List list;

@@ -96,12 +96,33 @@ TEST(Vdb, ValuesThatAreNoDensityAreCounted) {
   EXPECT_THAT(error_of(path), HasSubstr("3 of its values are negative or not finite, the first -2 at voxel (8, 4, 1)"));
 }
 
+// The twin reads them as they are.
+TEST(Vdb, SanitizedValuesAreZeroAndTheOthersAsTheyWere) {
+  const std::string path = temporary_file("sanitized.vdb"), expected = temporary_file("zeros.vdb");
+  const auto is_bad = [](int x, int y, int z) { return x == 8 && y == 4 && (z == 1 || z == 2); };
+  VdbOptions bad, zeros;
+  bad.change = [&](int x, int y, int z, float value) {
+    return is_bad(x, y, z) ? (z == 1 ? -2.0f : std::numeric_limits<float>::infinity()) : value;
+  };
+  zeros.change = [&](int x, int y, int z, float value) { return is_bad(x, y, z) ? 0 : value; };
+  write_vdb(path, bad);
+  write_vdb(expected, zeros);
+  const VolumeGrid grid = read_volume(path, "", {Storage::f32, BadValues::taken_as_0});
+  expect_same(grid, read_back_vdb(expected));
+  EXPECT_EQ(grid.warning, "grid \"density\" of " + path +
+                              ": 2 of its values are negative or not finite, the first -2 at voxel (8, 4, 1); they are "
+                              "taken as 0");
+  EXPECT_EQ(differing_voxels(grid, read_back_vdb(path)), 2);
+  EXPECT_EQ(read_volume(expected, "", {Storage::f32, BadValues::taken_as_0}).warning, "");
+}
+
 TEST(Vdb, TheGridIsChosenByTheRule) {
   const std::string path = temporary_file("choice.vdb");
   write_vdb_names(path, {"heat", "density"});
   EXPECT_EQ(read_volume(path, "", Storage::u16).name, "density");
   EXPECT_EQ(read_volume(path, "heat", Storage::u16).bricks.max_value, 1);
   EXPECT_THAT(error_of(path, "smoke"), HasSubstr("has no grid \"smoke\"; it has"));
+  EXPECT_THAT(error_of(path, "densty"), HasSubstr("has no grid \"densty\"; did you mean \"density\"? it has"));
   write_vdb_names(path, {"soot"});
   EXPECT_EQ(read_volume(path, "", Storage::u16).name, "soot");
   write_vdb_names(path, {"soot", "heat"});

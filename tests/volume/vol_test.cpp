@@ -87,6 +87,15 @@ TEST(Vol, GridsThatAreNoDensityAreRefusedWithAReason) {
   EXPECT_THAT(error_of(with(good, 48, std::numeric_limits<float>::quiet_NaN())), HasSubstr("not finite"));
 }
 
+TEST(Vol, SanitizedValuesAreZero) {
+  const std::string good = make_vol(1, {2, 2, 2}, 1);
+  const VolumeGrid grid =
+      read_volume(written(with(good, 48 + 4 * 5, -2.5f)), "", {Storage::f32, BadValues::taken_as_0});
+  const VolumeGrid expected = read_volume(written(with(good, 48 + 4 * 5, 0.0f)), "", Storage::f32);
+  EXPECT_EQ(grid.bricks.words, expected.bricks.words);
+  EXPECT_THAT(grid.warning, HasSubstr("the first -2.5 at voxel (1, 0, 1); they are taken as 0"));
+}
+
 TEST(Vol, FilesThatAreNoneAreRefusedWithAReason) {
   const std::string good = make_vol(1, {2, 2, 2}, 1);
   EXPECT_THAT(error_of(""), HasSubstr("does not begin with VOL"));
