@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "brume/brume.h"
 #include "command_line.h"
@@ -213,7 +214,9 @@ std::optional<brume::Picture> render(const Arguments& a, const brume::Scene& sce
   options.seconds = a.seconds;
   options.max_samples = a.changes.samples_per_pixel.value_or(options.max_samples);
   options.on_warning = warn;
-  options.on_progress = [&](const brume::Progress& progress) {
+  options.on_progress = [&, watching = false](const brume::Progress& progress) mutable {
+    // Until here there is nothing to save: Ctrl-C does what it does by default.
+    if (!std::exchange(watching, true)) watch_for_interrupt();
     reached = progress.fraction;
     line.show(progress);
     return !interrupted();
@@ -265,7 +268,6 @@ int render_command(const std::vector<std::string>& arguments) {
   if (a.help) return std::puts(help_text), 0;
   if (a.version) return std::puts(brume::version_text().c_str()), 0;
 
-  watch_for_interrupt();
   check_outputs(a, a.outputs);
   brume::Scene scene = load(a);
   scene.apply(a.changes);

@@ -96,7 +96,7 @@ TEST(Arguments, MistakesAreNamedAndNothingIsWritten) {
       {{"a.pbrt", "--integrator", "clasic"}, "did you mean \"classic\"?"},
       {{"a.pbrt", "--grid", "density"}, "a.pbrt: error: not a volume file"},
       {{"a.pbrt", "--example"}, "--example takes no scene"},
-      {{"--example", "--grid", "g"}, "--grid is for a volume"},
+      {{"--example", "--grid", "g"}, "--grid and --sanitize are for one volume file"},
       {{"a.pbrt", "-o", "x.jpg"}, ".exr, .png and .pfm"},
       {{"a.pbrt", "-o", "x"}, "no suffix"},
       {{"a.pbrt", "-o", "missing/x.png"}, "missing/x.png: error: cannot be written: there is no folder missing"},

@@ -2,6 +2,7 @@
 // without them too, where that is asked for.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <csignal>
@@ -53,6 +54,22 @@ void expect_partial_picture(const Arguments& arguments, int signal) {
 
 TEST(Interrupt, SigintSavesWhatThereIs) { expect_partial_picture(many_samples, SIGINT); }
 TEST(Interrupt, SigtermSavesWhatThereIs) { expect_partial_picture(much_time, SIGTERM); }
+TEST(Interrupt, SighupSavesWhatThereIs) { expect_partial_picture(much_time, SIGHUP); }
+
+// As it does the shell's other programs. The pipe stays open: nothing ever comes.
+TEST(Interrupt, OneSigintEndsWhatWaitsForAScene) {
+  const TemporaryFolder folder;
+  int pipe_ends[2];
+  ASSERT_EQ(pipe(pipe_ends), 0);
+  const int usual_input = dup(STDIN_FILENO);
+  dup2(pipe_ends[0], STDIN_FILENO);
+  RunningProgram program(folder.path(), {"-"});
+  dup2(usual_input, STDIN_FILENO);
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  program.send(SIGINT);
+  EXPECT_EQ(program.wait().exit_code, 130);
+  for (const int descriptor : {usual_input, pipe_ends[0], pipe_ends[1]}) close(descriptor);
+}
 
 // A program that is killed has left the picture of some seconds ago. The twin, not asked for it, has left nothing.
 TEST(Interrupt, PartialImagesAreThereWhileItRenders) {
