@@ -175,22 +175,24 @@ bool same_file(const std::string& a, const std::string& b) {
 }
 
 // What is written replaces what was there: nothing may be lost so that was read, or was written just before.
-void check_no_file_is_lost(const Arguments& a, std::vector<std::string> outputs) {
+void check_no_file_is_lost(const Arguments& a, std::vector<std::string> outputs,
+                           const std::vector<std::string>& inputs) {
   for (const std::string& output : {a.write_scene, a.stats_json})
     if (!output.empty()) outputs.push_back(output);
   for (auto output = outputs.begin(); output != outputs.end(); ++output) {
     const auto is_output = [&](const std::string& other) { return same_file(*output, other); };
-    if (std::any_of(a.files.begin(), a.files.end(), is_output))
+    if (std::any_of(inputs.begin(), inputs.end(), is_output))
       throw UsageError(*output + " is read, so it cannot be an output; name another file");
     if (std::any_of(outputs.begin(), output, is_output))
       throw UsageError(*output + " is given for two outputs; each needs a file of its own");
   }
 }
 
-void check_outputs(const Arguments& a, const std::vector<std::string>& outputs) {
+void check_outputs(const Arguments& a, const std::vector<std::string>& outputs,
+                   const std::vector<std::string>& inputs) {
   if (!a.write_scene.empty() && !any_ends_in({a.write_scene}, ".pbrt"))
     throw UsageError("--write-scene: " + a.write_scene + " is not a .pbrt file");
-  check_no_file_is_lost(a, outputs);
+  check_no_file_is_lost(a, outputs, inputs);
   for (const std::string& output : outputs) brume::Picture::check_output(output);
   if (!a.stats_json.empty()) brume::Statistics::check_output(a.stats_json);
   if (a.exposure != 0 && !outputs.empty() && !any_ends_in(outputs, ".png"))
@@ -268,17 +270,20 @@ int render_command(const std::vector<std::string>& arguments) {
   if (a.help) return std::puts(help_text), 0;
   if (a.version) return std::puts(brume::version_text().c_str()), 0;
 
-  check_outputs(a, a.outputs);
+  check_outputs(a, a.outputs, a.files);
   brume::Scene scene = load(a);
   scene.apply(a.changes);
+  const bool is_rendered = a.write_scene.empty() || !a.outputs.empty();
+  std::vector<std::string> outputs = a.outputs, inputs = scene.input_files();
+  if (is_rendered && outputs.empty()) outputs = {scene.output_filename()};
+  inputs.insert(inputs.end(), a.files.begin(), a.files.end());
+  check_outputs(a, outputs, inputs);
   if (!scene.framing_note().empty()) say(a, scene.framing_note());
   if (!a.write_scene.empty()) {
     scene.write(a.write_scene);
     say(a, a.write_scene + ": scene written");
-    if (a.outputs.empty()) return 0;
   }
-  const std::vector<std::string> outputs = a.outputs.empty() ? std::vector{scene.output_filename()} : a.outputs;
-  check_outputs(a, outputs);
+  if (!is_rendered) return 0;
   const std::optional<brume::Picture> picture = render(a, scene, outputs);
   if (interrupted()) say(a, picture ? "interrupted: saving what is rendered" : "interrupted: nothing was rendered yet");
   return picture ? save(a, *picture, outputs) : exit_interrupted;

@@ -56,6 +56,8 @@ class Scene {
   std::string text() const;
   // Writes text() to a file, whole or not at all.
   void write(const std::string& path) const;
+  // The files that were read for it or that it names: what it includes, meshes, volumes, pictures, spectra.
+  std::vector<std::string> input_files() const;
   // The file name that the scene's Film gives.
   std::string output_filename() const;
   // One line about what frame_volume chose; empty for other scenes.

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
+#include <tuple>
 
 namespace brume {
 
@@ -40,7 +42,40 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+// The length of the UTF-8 sequence that begins at `at`, or 0 where there is none.
+std::size_t sequence_length(std::string_view text, std::size_t at) {
+  const auto lead = static_cast<unsigned char>(text[at]);
+  const std::size_t length = lead < 0x80                   ? 1
+                             : lead >= 0xc2 && lead < 0xe0 ? 2
+                             : lead >= 0xe0 && lead < 0xf0 ? 3
+                             : lead >= 0xf0 && lead < 0xf5 ? 4
+                                                           : 0;
+  if (at + length > text.size()) return 0;
+  for (std::size_t i = 1; i < length; ++i)
+    if ((static_cast<unsigned char>(text[at + i]) & 0xc0) != 0x80) return 0;
+  return length;
+}
+
 }  // namespace
+
+std::string without_controls(std::string_view text) {
+  std::string clean;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = sequence_length(text, i);
+    const auto first = static_cast<unsigned char>(text[i]);
+    const bool control = length == 1 ? (first < 0x20 && text[i] != '\t' && text[i] != '\n') || first == 0x7f
+                                     : length == 2 && first == 0xc2 && static_cast<unsigned char>(text[i + 1]) < 0xa0;
+    if (length == 0 || control) {
+      // Continuation bytes do not count as columns, so they leave nothing behind.
+      if ((static_cast<unsigned char>(text[i]) & 0xc0) != 0x80) clean += '?';
+      ++i;
+    } else {
+      clean += text.substr(i, length);
+      i += length;
+    }
+  }
+  return clean;
+}
 
 std::string to_string(const Diagnostic& d) {
   std::string place = d.location.file;
@@ -55,7 +90,17 @@ std::string to_string(const Diagnostic& d) {
     }
     text += fmt::format("\n  {}\n  {}^", d.source_line, indent);
   }
-  return text;
+  return without_controls(text);
+}
+
+void sort_by_place(std::vector<Diagnostic>& diagnostics) {
+  std::map<std::string, std::size_t> order;
+  for (const Diagnostic& d : diagnostics) order.try_emplace(d.location.file, order.size());
+  const auto key = [&](const Diagnostic& d) {
+    return std::tuple(order.at(d.location.file), d.location.line, d.location.column);
+  };
+  std::stable_sort(diagnostics.begin(), diagnostics.end(),
+                   [&](const Diagnostic& a, const Diagnostic& b) { return key(a) < key(b); });
 }
 
 InputError::InputError(std::vector<Diagnostic> diagnostics)

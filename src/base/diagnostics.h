@@ -25,8 +25,15 @@ struct Diagnostic {
   std::string source_line;  // the text of the line, where there is one
 };
 
+// The same number of characters, with control characters (but tabs and ends of lines) and broken UTF-8 replaced by '?':
+// what comes from files cannot command a terminal.
+std::string without_controls(std::string_view text);
+
 // "file:line:column: error: message", and below it the line with a caret under the column.
 std::string to_string(const Diagnostic& diagnostic);
+
+// By line and column; files stay in the order in which they come first.
+void sort_by_place(std::vector<Diagnostic>& diagnostics);
 
 // What every operation of the library throws when its input is at fault. what() holds all diagnostics as text.
 class InputError : public std::runtime_error {

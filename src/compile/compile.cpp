@@ -1,5 +1,7 @@
 #include "compile/compile.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 
@@ -31,6 +33,10 @@ CompiledScene compile(const SceneDescription& scene, int threads, std::vector<Di
   return Compiler(scene, threads).run(warnings);
 }
 
+std::vector<Diagnostic> file_errors(const SceneDescription& scene, int threads) {
+  return Compiler(scene, threads).file_errors();
+}
+
 CompiledScene Compiler::run(std::vector<Diagnostic>& warnings) {
   compiled_.file = scene_.file;
   compiled_.width = scene_.film.width;
@@ -50,9 +56,37 @@ CompiledScene Compiler::run(std::vector<Diagnostic>& warnings) {
   add_instances();
   boundaries_to_volumes();
   add_light_choice();
+  sort_by_place(errors_);
+  sort_by_place(warnings_);
   if (!errors_.empty()) throw InputError(std::move(errors_));
   warnings.insert(warnings.end(), warnings_.begin(), warnings_.end());
   return std::move(compiled_);
+}
+
+std::vector<Diagnostic> Compiler::file_errors() {
+  for (const MediumDescription& medium : scene_.media) {
+    const auto* file = std::get_if<FileMedium>(&medium.kind);
+    if (!file || file->filename.empty()) continue;
+    density_grid(medium);
+    if (file->temperature_asked_for) temperature_grid(medium);
+  }
+  for (const TextureDescription& texture : scene_.textures)
+    if (const auto* image = std::get_if<ImageTexture>(&texture.kind); image && !image->filename.empty())
+      image_index(*image, texture.is_float, fmt::format("Texture \"{}\"", texture.name));
+  for (const LightDescription& light : scene_.lights)
+    if (const auto* infinite = std::get_if<InfiniteLight>(&light.kind); infinite && !infinite->filename.empty()) {
+      CompiledEnvironment unused;
+      read_environment(infinite->filename, unused);
+    }
+  const auto of_shapes = [&](const std::vector<ShapeDescription>& shapes) {
+    for (const ShapeDescription& shape : shapes) {
+      if (!shape.relief.normal_map.empty()) normal_map(shape.relief);
+      if (shape.light) light_image(*shape.light);
+    }
+  };
+  of_shapes(scene_.shapes);
+  for (const ObjectDescription& object : scene_.objects) of_shapes(object.shapes);
+  return std::move(errors_);
 }
 
 // pbrt's perspective camera: fov across the shorter side of the picture, whose screen window is then +-1, and +-aspect

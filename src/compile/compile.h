@@ -14,6 +14,10 @@ namespace brume {
 // Throws InputError, with all errors found; warnings are appended.
 CompiledScene compile(const SceneDescription& scene, int threads, std::vector<Diagnostic>& warnings);
 
+// Of a scene whose text has errors: what is wrong with the volumes and pictures that it names. compile() finds the same
+// of one without.
+std::vector<Diagnostic> file_errors(const SceneDescription& scene, int threads);
+
 // Bordered bricks are for marching and traversal, which look up all eight corners of a cell; plain ones for tracking,
 // which looks up one (kernel/lookup.inl).
 enum class BrickLayout { plain, bordered };

@@ -237,7 +237,7 @@ void Compiler::add_infinite_light(const LightDescription& description) {
   if (light.filename.empty()) {
     e.width = e.height = 1;
     e.pixels = {1, 1, 1};
-  } else if (!read_environment(light.filename, description.location, e)) {
+  } else if (!read_environment(light.filename, e)) {
     return;
   }
   e.world_from_light = rotation(light.world_from_light);
@@ -257,7 +257,8 @@ void Compiler::add_infinite_light(const LightDescription& description) {
 }
 
 // Square pictures are octahedral maps of equal area, pictures twice as wide as high equirectangular ones.
-bool Compiler::read_environment(const std::string& filename, const Location& location, CompiledEnvironment& e) {
+bool Compiler::read_environment(const GivenName& filename, CompiledEnvironment& e) {
+  const Location& location = filename.location;
   Image image;
   try {
     image = read_image(filename);
@@ -269,13 +270,13 @@ bool Compiler::read_environment(const std::string& filename, const Location& loc
   if (image.width != image.height && image.width != 2 * image.height) {
     error(location, fmt::format("{} has {} x {} pixels: the image of LightSource \"infinite\" is either square (an "
                                 "equal-area octahedral map) or twice as wide as high (an equirectangular one)",
-                                filename, image.width, image.height));
+                                filename.text, image.width, image.height));
     return false;
   }
   bool negative = false;
   for (float& v : image.pixels) {
     if (!std::isfinite(v)) {
-      error(location, fmt::format("{} has pixels that are infinite or not a number", filename));
+      error(location, fmt::format("{} has pixels that are infinite or not a number", filename.text));
       return false;
     }
     negative = negative || v < 0;
@@ -283,7 +284,7 @@ bool Compiler::read_environment(const std::string& filename, const Location& loc
   }
   if (negative)
     warnings_.push_back(
-        {Severity::warning, location, fmt::format("{} has negative pixels; they are taken as 0", filename), {}});
+        {Severity::warning, location, fmt::format("{} has negative pixels; they are taken as 0", filename.text), {}});
   e.projection = image.width == image.height ? CompiledEnvironment::Projection::equal_area
                                              : CompiledEnvironment::Projection::equirectangular;
   e.width = static_cast<std::uint32_t>(image.width);
@@ -294,21 +295,21 @@ bool Compiler::read_environment(const std::string& filename, const Location& loc
 
 Compiler::LightImage Compiler::light_image(const AreaLight& light) {
   if (light.filename.empty()) return {};
-  const auto [known, is_new] = light_images_.try_emplace(light.filename);
+  const auto [known, is_new] = light_images_.try_emplace(light.filename.text);
   LightImage& made = known->second;
   if (!is_new) return made;
   ImageTexture picture;
   picture.filename = light.filename;
   CompiledTexture texture;
   texture.kind = CompiledTexture::Kind::image;
-  texture.image = image_index(picture, false, "AreaLightSource \"diffuse\"", light.location);
+  texture.image = image_index(picture, false, "AreaLightSource \"diffuse\"");
   texture.wrap = CompiledTexture::Wrap::clamp;
   if (texture.image < 0) return made;
   const CompiledImage& image = compiled_.images[static_cast<std::size_t>(texture.image)];
   if (*std::min_element(image.pixels.begin(), image.pixels.end()) < 0)
     warnings_.push_back({Severity::warning,
-                         light.location,
-                         fmt::format("{} has negative pixels; they are taken as 0", light.filename),
+                         light.filename.location,
+                         fmt::format("{} has negative pixels; they are taken as 0", light.filename.text),
                          {}});
   made = {add_texture(texture), mean_colour(image)};
   return made;

@@ -21,7 +21,7 @@ namespace {
 std::string grid_key(const MediumDescription& medium, const std::string& file_grid) {
   const std::string lookup = fmt::format("{} {} {}", medium.storage_bits, medium.linear_interpolation, medium.sanitize);
   if (const auto* file = std::get_if<FileMedium>(&medium.kind))
-    return fmt::format("file {}\n{}\n{}", file->filename, file_grid, lookup);
+    return fmt::format("file {}\n{}\n{}", file->filename.text, file_grid, lookup);
   if (const auto* made = std::get_if<ProceduralMedium>(&medium.kind)) {
     const Procedural& p = made->procedural;
     return fmt::format("{} {} {} {} {}", p.table().name, p.size, p.seed, fmt::join(p.values, " "), lookup);
@@ -152,7 +152,8 @@ void Compiler::check_grid(const Transform& world_from_index, const CompiledMediu
 }
 
 template <class Load>
-Compiler::LoadedGrid Compiler::loaded_grid(const MediumDescription& medium, const std::string& key, Load load) {
+Compiler::LoadedGrid Compiler::loaded_grid(const MediumDescription& medium, const GivenName& grid_name,
+                                           const std::string& key, Load load) {
   if (const auto known = grids_.find(key); known != grids_.end()) return known->second;
   LoadedGrid loaded{-1, {}};
   try {
@@ -166,16 +167,19 @@ Compiler::LoadedGrid Compiler::loaded_grid(const MediumDescription& medium, cons
     }
     grids_.emplace(key, loaded);
   } catch (const InputError& e) {
+    const auto* file = std::get_if<FileMedium>(&medium.kind);
+    const bool is_about_the_grid = dynamic_cast<const GridError*>(&e) && grid_name.location.line > 0;
+    const Location& at = is_about_the_grid ? grid_name.location : file ? file->filename.location : medium.location;
     for (const Diagnostic& d : e.diagnostics())
-      error(medium.location.line > 0 ? medium.location : d.location,
-            medium.location.line > 0 ? fmt::format("{}: {}", d.location.file, d.message) : d.message);
+      error(at.line > 0 ? at : d.location, at.line > 0 ? fmt::format("{}: {}", d.location.file, d.message) : d.message);
   }
   return loaded;
 }
 
 Compiler::LoadedGrid Compiler::density_grid(const MediumDescription& medium) {
   const auto* file = std::get_if<FileMedium>(&medium.kind);
-  return loaded_grid(medium, grid_key(medium, file ? file->grid : ""), [&]() -> std::optional<VolumeGrid> {
+  const GivenName name = file ? file->grid : GivenName();
+  return loaded_grid(medium, name, grid_key(medium, name), [&]() -> std::optional<VolumeGrid> {
     if (file) return read_volume(file->filename, file->grid, reading_of(medium));
     const Storage storage = storage_of(medium);
     if (const auto* made = std::get_if<ProceduralMedium>(&medium.kind))
@@ -190,23 +194,25 @@ Compiler::LoadedGrid Compiler::density_grid(const MediumDescription& medium) {
 // A grid of temperatures that was not asked for by name may be missing.
 Compiler::LoadedGrid Compiler::temperature_grid(const MediumDescription& medium) {
   const auto* file = std::get_if<FileMedium>(&medium.kind);
-  const std::string key = fmt::format("temperature {}", grid_key(medium, file ? file->temperature_grid : ""));
-  return loaded_grid(medium, key, [&]() -> std::optional<VolumeGrid> {
-    if (file)
-      return file->temperature_asked_for ? read_volume(file->filename, file->temperature_grid, reading_of(medium))
-                                         : find_volume(file->filename, file->temperature_grid, reading_of(medium));
-    const Storage storage = storage_of(medium);
-    if (const auto* made = std::get_if<ProceduralMedium>(&medium.kind))
-      return procedural_temperature(made->procedural, storage, threads_);
-    const auto& uniform = std::get<UniformGridMedium>(medium.kind);
-    return make_uniform_grid(uniform, uniform.temperature, storage);
-  });
+  const GivenName name = file ? file->temperature_grid : GivenName();
+  return loaded_grid(
+      medium, name, fmt::format("temperature {}", grid_key(medium, name)), [&]() -> std::optional<VolumeGrid> {
+        if (file)
+          return file->temperature_asked_for ? read_volume(file->filename, file->temperature_grid, reading_of(medium))
+                                             : find_volume(file->filename, file->temperature_grid, reading_of(medium));
+        const Storage storage = storage_of(medium);
+        if (const auto* made = std::get_if<ProceduralMedium>(&medium.kind))
+          return procedural_temperature(made->procedural, storage, threads_);
+        const auto& uniform = std::get<UniformGridMedium>(medium.kind);
+        return make_uniform_grid(uniform, uniform.temperature, storage);
+      });
 }
 
 Compiler::LoadedGrid Compiler::strength_grid(const MediumDescription& medium) {
   const auto* uniform = std::get_if<UniformGridMedium>(&medium.kind);
   if (!uniform || uniform->strength.empty()) return {-1, {}};
-  return loaded_grid(medium, fmt::format("strength {}", grid_key(medium, "")), [&]() -> std::optional<VolumeGrid> {
+  const std::string key = fmt::format("strength {}", grid_key(medium, ""));
+  return loaded_grid(medium, {}, key, [&]() -> std::optional<VolumeGrid> {
     return make_uniform_grid(*uniform, uniform->strength, storage_of(medium));
   });
 }

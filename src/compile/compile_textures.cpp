@@ -73,8 +73,7 @@ void Compiler::add_textures() {
     } else {
       const auto& image = std::get<ImageTexture>(description.kind);
       t.kind = Kind::image;
-      t.image = image_index(image, description.is_float, fmt::format("Texture \"{}\"", description.name),
-                            description.location);
+      t.image = image_index(image, description.is_float, fmt::format("Texture \"{}\"", description.name));
       t.mapping = compile_mapping(image.mapping);
       t.wrap = static_cast<CompiledTexture::Wrap>(image.wrap);
       t.bilinear = image.bilinear;
@@ -86,33 +85,32 @@ void Compiler::add_textures() {
 }
 
 std::int32_t Compiler::normal_map(const Relief& relief) {
-  const auto [known, is_new] = normal_maps_.try_emplace(relief.normal_map, -1);
+  const auto [known, is_new] = normal_maps_.try_emplace(relief.normal_map.text, -1);
   if (!is_new) return known->second;
   ImageTexture picture;
   picture.filename = relief.normal_map;
   picture.gamma = 1;
   CompiledTexture t;
   t.kind = CompiledTexture::Kind::image;
-  t.image = image_index(picture, false, "the material's normal map", relief.location);
+  t.image = image_index(picture, false, "the material's normal map");
   known->second = add_texture(t);
   return known->second;
 }
 
-std::int32_t Compiler::image_index(const ImageTexture& from, bool is_float, const std::string& owner,
-                                   const Location& location) {
-  const auto [known, is_new] = images_.try_emplace({from.filename, from.gamma, is_float}, -1);
+std::int32_t Compiler::image_index(const ImageTexture& from, bool is_float, const std::string& owner) {
+  const auto [known, is_new] = images_.try_emplace({from.filename.text, from.gamma, is_float}, -1);
   if (!is_new) return known->second;
   try {
     Image image = read_encoded_image(from.filename, from.gamma);
     if (!std::all_of(image.pixels.begin(), image.pixels.end(), [](float v) { return std::isfinite(v); })) {
-      error(location, fmt::format("{} has pixels that are infinite or not a number", from.filename));
+      error(from.filename.location, fmt::format("{} has pixels that are infinite or not a number", from.filename.text));
       return -1;
     }
     compiled_.images.push_back(compile_image(std::move(image), is_float));
     known->second = static_cast<std::int32_t>(compiled_.images.size() - 1);
   } catch (const InputError& fault) {
     for (const Diagnostic& d : fault.diagnostics())
-      error(location, fmt::format("the image of {}: {}: {}", owner, d.location.file, d.message));
+      error(from.filename.location, fmt::format("the image of {}: {}: {}", owner, d.location.file, d.message));
   }
   return known->second;
 }

@@ -31,6 +31,8 @@ class Compiler {
   Compiler(const SceneDescription& scene, int threads) : scene_(scene), threads_(threads) {}
   // Throws InputError with all errors found.
   CompiledScene run(std::vector<Diagnostic>& warnings);
+  // What is wrong with the volumes and pictures that the scene names.
+  std::vector<Diagnostic> file_errors();
 
  private:
   void add_camera();
@@ -39,7 +41,7 @@ class Compiler {
   std::vector<ShapeDescription> balls_of_lights() const;
   void add_ambient_light(const AmbientLight& light, const Location& location);
   void add_infinite_light(const LightDescription& description);
-  bool read_environment(const std::string& filename, const Location& location, CompiledEnvironment& environment);
+  bool read_environment(const GivenName& filename, CompiledEnvironment& environment);
   // Lights that the parts of a shape are, whose geometry is there already.
   void add_area_lights(const AreaLight& light, std::vector<CompiledShape>& parts);
   // What an area light's radiance is multiplied by over its shape, and the mean of that.
@@ -71,9 +73,10 @@ class Compiler {
     Transform medium_from_index;
   };
   // The grid that `load` returns, or one that was loaded before under the same key. One that cannot be read is an error
-  // at the medium.
+  // where the medium gives the name of the file, or `grid_name`, that of the grid.
   template <class Load>
-  LoadedGrid loaded_grid(const MediumDescription& medium, const std::string& key, Load load);
+  LoadedGrid loaded_grid(const MediumDescription& medium, const GivenName& grid_name, const std::string& key,
+                         Load load);
   LoadedGrid density_grid(const MediumDescription& medium);
   LoadedGrid temperature_grid(const MediumDescription& medium);
   LoadedGrid strength_grid(const MediumDescription& medium);
@@ -112,7 +115,7 @@ class Compiler {
   // Of normals, which are not light: its values are linear.
   std::int32_t normal_map(const Relief& relief);
   // The index of a picture of `owner`, which is read on first use; below 0 after an error.
-  std::int32_t image_index(const ImageTexture& from, bool is_float, const std::string& owner, const Location& location);
+  std::int32_t image_index(const ImageTexture& from, bool is_float, const std::string& owner);
 
   void error(const Location& location, const std::string& message);
 

@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -25,6 +26,19 @@
 #include "kernel/phase_table.h"
 
 namespace brume {
+
+// A name that a scene gives, of a file or of something in one, and where it gives it.
+struct GivenName {
+  GivenName() = default;
+  GivenName(std::string name, Location at = {}) : text(std::move(name)), location(std::move(at)) {}
+  GivenName(const char* name) : text(name) {}
+  bool empty() const { return text.empty(); }
+  operator const std::string&() const { return text; }
+  bool operator==(const GivenName& other) const { return text == other.text; }
+
+  std::string text;
+  Location location;
+};
 
 struct FilmDescription {
   std::string filename = "brume.exr";
@@ -109,10 +123,10 @@ struct RgbGridMedium {
 
 // Type "vdb", "nanovdb" or "vol": a grid from a file (its suffix says of which kind), read when the scene is compiled.
 struct FileMedium {
-  std::string filename;  // resolved
-  std::string grid;      // "" chooses
+  GivenName filename;  // resolved
+  GivenName grid;      // "" chooses
   // Of temperatures; "": none. One that was not asked for by name may be missing.
-  std::string temperature_grid{};
+  GivenName temperature_grid{};
   bool temperature_asked_for = false;
 };
 
@@ -198,7 +212,7 @@ struct CheckerboardTexture {
 // A picture over the unit square, its lowest row at t = 0; times scale, and where inverted taken from 1.
 struct ImageTexture {
   enum class Wrap { repeat, clamp, black };
-  std::string filename;  // resolved
+  GivenName filename;    // resolved
   double gamma = 0;      // of .png files: 0 is sRGB's curve, else linear values are the file's to this power
   bool bilinear = true;  // else the nearest pixel
   Wrap wrap = Wrap::repeat;
@@ -254,9 +268,8 @@ using MaterialDescription = std::variant<DiffuseMaterial, BlinnPhongMaterial, In
 // Bumps that a material only seems to have: they turn shading normals, and leave the shape as it is. At most one of the
 // two is given.
 struct Relief {
-  int displacement = -1;   // a texture of numbers, in SceneDescription::textures: how far points seem to be moved
-  std::string normal_map;  // an image, resolved; "": none
-  Location location{};     // of the material
+  int displacement = -1;  // a texture of numbers, in SceneDescription::textures: how far points seem to be moved
+  GivenName normal_map;   // an image, resolved; "": none
 };
 
 // About the origin, cut at z_min and z_max.
@@ -312,8 +325,7 @@ struct AreaLight {
   // Above 0: `radiance` is to be multiplied by power / (pi area), halved where two-sided, and divided by the image's
   // mean luminance.
   double power = 0;
-  std::string filename{};  // of an image over the shape's (u, v) that multiplies `radiance`, resolved; "" for none
-  Location location{};
+  GivenName filename{};  // of an image over the shape's (u, v) that multiplies `radiance`, resolved; "" for none
 };
 
 struct ShapeDescription {
@@ -368,8 +380,8 @@ struct DistantLight {
 };
 // Constant, or an image around the scene.
 struct InfiniteLight {
-  Spectrum radiance;       // multiplies the image
-  std::string filename{};  // of the image, resolved; "" for none
+  Spectrum radiance;     // multiplies the image
+  GivenName filename{};  // of the image, resolved; "" for none
   Transform world_from_light{};
   double illuminance = 0;  // above 0: an image is scaled to this illuminance of a surface that faces the light's +z
   // The corners p0 to p3 of a rectangle in the world: the light is seen only through it, and only along directions on
@@ -399,7 +411,8 @@ struct SceneDescription {
   SceneDescription& operator=(SceneDescription&&) noexcept;
   ~SceneDescription();
 
-  std::string file = "scene";  // the first that it was read from, for messages about all of it
+  std::string file = "scene";      // the first that it was read from, for messages about all of it
+  std::vector<std::string> files;  // all that were read for it, or that it names
   FilmDescription film;
   SamplerDescription sampler;
   PixelFilter filter;

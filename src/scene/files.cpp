@@ -52,12 +52,18 @@ void Reader::push_file() {
   tokens_.push(source);
 }
 
-std::string Reader::resolve(const std::string& filename) const {
+std::string Reader::resolve(const std::string& filename) {
   namespace fs = std::filesystem;
   std::error_code ignored;
-  if (folder_.empty() || fs::path(filename).is_absolute()) return filename;
+  // An absolute name replaces the folder.
   const std::string in_folder = (fs::path(folder_) / filename).string();
-  return fs::exists(in_folder, ignored) ? in_folder : filename;
+  return scene_.files.emplace_back(fs::exists(in_folder, ignored) ? in_folder : filename);
+}
+
+GivenName Reader::file_name(ParameterList& p, std::string_view parameter) {
+  const std::string name = p.string(parameter, "");
+  if (name.empty()) return {};
+  return {resolve(name), location(p.place_of(ParameterType::string, parameter))};
 }
 
 const Source& Reader::open_source(const std::string& filename, const Place& place) {

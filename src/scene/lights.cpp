@@ -130,8 +130,8 @@ InfiniteLight Reader::infinite_light(ParameterList& p, const Transform& ctm) {
   InfiniteLight light;
   p.rename("mapname", "filename");
   light.portal = read_portal(p);
-  const std::string name = p.string("filename", "");
-  if (name.empty()) {
+  light.filename = file_name(p, "filename");
+  if (light.filename.empty()) {
     light.radiance = read_colour(p, "L", "illuminance", std::numbers::pi);
     return light;
   }
@@ -140,7 +140,6 @@ InfiniteLight Reader::infinite_light(ParameterList& p, const Transform& ctm) {
     p.error(p.place(),
             "the image of LightSource \"infinite\" may be turned and mirrored, but the current "
             "transformation stretches it");
-  light.filename = resolve(name);
   light.world_from_light = ctm;
   light.illuminance = std::max(0.0, p.number("illuminance", -1));
   return light;
@@ -180,10 +179,8 @@ void Reader::area_light_source() {
   if (type != "diffuse") unknown_type(argument_, "AreaLightSource", type, {"diffuse"}, {});
   ParameterList p = parameters("AreaLightSource \"diffuse\"", "light");
   AreaLight light;
-  light.location = location(directive_.place);
-  const std::string name = p.string("filename", "");
-  if (!name.empty()) light.filename = resolve(name);
-  light.radiance = name.empty() ? read_colour(p, "L", "", 1) : read_image_scale(p);
+  light.filename = file_name(p, "filename");
+  light.radiance = light.filename.empty() ? read_colour(p, "L", "", 1) : read_image_scale(p);
   light.two_sided = p.boolean("twosided", false);
   light.power = std::max(0.0, p.number("power", -1));
   p.finish();

@@ -213,17 +213,13 @@ MaterialDescription Reader::read_surface(const std::string& given, const Place& 
 
 Relief Reader::read_relief(ParameterList& p) {
   Relief relief;
-  relief.location = location(directive_.place);
   Textured displacement;
   use_texture(p, "displacement", true, displacement);
   p.ignore({"float displacement"});  // moves all points alike
   relief.displacement = displacement.texture;
   if (!p.has(ParameterType::string, "normalmap")) return relief;
-  const std::string name = p.string("normalmap", "");
-  if (name.empty())
-    p.value_error(*p.find(ParameterType::string, "normalmap"), 0, "must name an image");
-  else
-    relief.normal_map = resolve(name);
+  relief.normal_map = file_name(p, "normalmap");
+  if (relief.normal_map.empty()) p.value_error(*p.find(ParameterType::string, "normalmap"), 0, "must name an image");
   if (relief.displacement >= 0) {
     p.warning(p.place_of(ParameterType::texture, "displacement"),
               fmt::format("\"texture displacement\" of {} has no effect beside its normal map", p.owner()));

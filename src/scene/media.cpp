@@ -59,6 +59,12 @@ std::vector<float> read_cells(ParameterList& p, std::string_view name, const std
   return result;
 }
 
+GivenName grid_name(ParameterList& p, std::string_view parameter, const std::string& fallback) {
+  const bool is_given = p.has(ParameterType::string, parameter);
+  return {p.string(parameter, fallback),
+          is_given ? location(p.place_of(ParameterType::string, parameter)) : Location()};
+}
+
 namespace {
 
 constexpr std::int64_t max_voxels_along_axis = 65536;
@@ -253,16 +259,17 @@ void Reader::make_named_medium() {
     medium.kind = read_cloud(p);
   } else {
     p.require(ParameterType::string, "filename");
-    medium.kind = FileMedium{resolve(p.string("filename", "")), p.string("gridname", "")};
+    medium.kind = FileMedium{file_name(p, "filename"), grid_name(p, "gridname", "")};
   }
   if (type != "rgbgrid") read_emission(p, medium);
   p.finish();
 
-  if (const auto [known, is_new] = media_by_name_.try_emplace(name, scene_.media.size()); is_new)
+  if (const auto [known, is_new] = media_by_name_.try_emplace(name, NamedMedium{scene_.media.size(), name_place});
+      is_new)
     scene_.media.push_back(std::move(medium));
   else
     messages_.error(name_place, fmt::format("there is a medium \"{}\" already, from line {}", printable(name),
-                                            scene_.media[known->second].location.line));
+                                            known->second.place.line));
 }
 
 void Reader::medium_interface() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -23,6 +24,9 @@ struct CellRange {
 // missing or at fault.
 std::vector<float> read_cells(ParameterList& p, std::string_view name, const std::array<int, 3>& resolution,
                               const CellRange& allowed, ParameterType type = ParameterType::float_);
+
+// What the parameter names, `fallback` where it is not given.
+GivenName grid_name(ParameterList& p, std::string_view parameter, const std::string& fallback);
 
 // Le, Lescale and what makes emission of temperatures, of a medium whose kind has been read.
 void read_emission(ParameterList& p, MediumDescription& medium);

@@ -31,10 +31,11 @@ bool find_temperatures(ParameterList& p, bool has_le, UniformGridMedium& grid) {
 
 bool find_temperatures(ParameterList& p, bool has_le, FileMedium& file) {
   file.temperature_asked_for = p.has(ParameterType::string, "temperaturename");
-  file.temperature_grid = p.string("temperaturename", has_le ? "" : "temperature");
+  file.temperature_grid = grid_name(p, "temperaturename", has_le ? "" : "temperature");
   const bool has = !file.temperature_grid.empty();
   if (!has) file.temperature_asked_for = false;
-  if (file.temperature_asked_for) exclude_emission(p, has_le, fmt::format("grid \"{}\"", file.temperature_grid));
+  if (file.temperature_asked_for)
+    exclude_emission(p, has_le, fmt::format("grid \"{}\"", printable(file.temperature_grid.text)));
   return has;
 }
 

@@ -17,38 +17,6 @@ constexpr std::size_t max_shown_name = 60;
 constexpr std::size_t max_shown_line = 160;
 constexpr std::size_t excerpt_before = 60, excerpt_after = 60;
 
-// The length of the UTF-8 sequence that begins at `at`, or 0 where there is none.
-std::size_t sequence_length(std::string_view text, std::size_t at) {
-  const auto lead = static_cast<unsigned char>(text[at]);
-  const std::size_t length = lead < 0x80                   ? 1
-                             : lead >= 0xc2 && lead < 0xe0 ? 2
-                             : lead >= 0xe0 && lead < 0xf0 ? 3
-                             : lead >= 0xf0 && lead < 0xf5 ? 4
-                                                           : 0;
-  if (at + length > text.size()) return 0;
-  for (std::size_t i = 1; i < length; ++i)
-    if ((static_cast<unsigned char>(text[at + i]) & 0xc0) != 0x80) return 0;
-  return length;
-}
-
-// The same number of characters, with control characters (but tabs) and broken UTF-8 replaced by '?'.
-std::string without_controls(std::string_view text) {
-  std::string clean;
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t length = sequence_length(text, i);
-    const bool control = length == 1 && ((text[i] >= 0 && text[i] < 0x20 && text[i] != '\t') || text[i] == 0x7f);
-    if (length == 0 || control) {
-      // Continuation bytes do not count as columns, so they leave nothing behind.
-      if ((static_cast<unsigned char>(text[i]) & 0xc0) != 0x80) clean += '?';
-      ++i;
-    } else {
-      clean += text.substr(i, length);
-      i += length;
-    }
-  }
-  return clean;
-}
-
 bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
 
 // The line around a place, whole where it is short. Of a longer one an excerpt; where the place's column lies beyond
@@ -126,10 +94,11 @@ Location location(const Place& place) {
 }
 
 std::string printable(std::string_view text) {
-  if (text.size() <= max_shown_name) return without_controls(text);
-  std::size_t end = max_shown_name;
-  while (end > 0 && is_continuation(text[end])) --end;
-  return without_controls(text.substr(0, end)) + "...";
+  std::size_t end = std::min(text.size(), max_shown_name);
+  while (end > 0 && end < text.size() && is_continuation(text[end])) --end;
+  std::string shown = without_controls(text.substr(0, end));
+  std::replace(shown.begin(), shown.end(), '\n', '?');
+  return end < text.size() ? shown + "..." : shown;
 }
 
 std::string suggestion(std::string_view name, const std::vector<std::string_view>& valid,
@@ -185,9 +154,9 @@ std::vector<Diagnostic> Messages::sorted(std::vector<Entry>& entries) {
   return diagnostics;
 }
 
-void Messages::finish(std::vector<Diagnostic>& warnings) {
+std::vector<Diagnostic> Messages::finish(std::vector<Diagnostic>& warnings) {
   for (Diagnostic& d : sorted(warnings_)) warnings.push_back(std::move(d));
-  if (!errors_.empty()) throw InputError(sorted(errors_));
+  return sorted(errors_);
 }
 
 }  // namespace brume

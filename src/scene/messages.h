@@ -59,9 +59,9 @@ class Messages {
   void old_spelling(const Place& place, const std::string& message);
   bool any_error() const { return !errors_.empty(); }
 
-  // Appends the warnings to `warnings`, then throws InputError with the errors, where there are any, in the order of
-  // their places.
-  void finish(std::vector<Diagnostic>& warnings);
+  // Appends the warnings to `warnings`, and returns the errors, both in the order of their places. Nothing is left
+  // here.
+  std::vector<Diagnostic> finish(std::vector<Diagnostic>& warnings);
 
  private:
   struct Entry {

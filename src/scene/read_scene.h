@@ -1,6 +1,7 @@
 // The reader and the writer of the scene language, which is pbrt-v4's with Brume's additions (docs/scene-language.md).
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,10 +17,13 @@ bool is_scene_file(const std::string& path);
 // to `warnings`.
 SceneDescription read_scene(const std::string& path, std::vector<Diagnostic>& warnings);
 
+// What else is wrong with a scene whose text has errors, which holds what could be read of it.
+using MoreErrors = std::function<std::vector<Diagnostic>(const SceneDescription&)>;
+
 // Several files, one after another, as one scene; each one's relative names resolve against its own folder. Where
-// `strict`, old spellings are errors.
+// `strict`, old spellings are errors. Where there are errors, `more_errors` is asked for others to be thrown with them.
 SceneDescription read_scene_files(const std::vector<std::string>& paths, std::vector<Diagnostic>& warnings,
-                                  bool strict = false);
+                                  bool strict = false, const MoreErrors& more_errors = {});
 
 // From text; `name` stands for the file in messages, and relative names resolve against `folder`.
 SceneDescription read_scene_text(std::string_view text, const std::string& name, const std::string& folder,

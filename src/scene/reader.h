@@ -155,7 +155,9 @@ class Reader {
                                  const std::vector<std::string_view>& read_here,
                                  const std::vector<std::string_view>& of_pbrt);
   // A file name of the scene: in the folder where there is such a file, else as given.
-  std::string resolve(const std::string& filename) const;
+  std::string resolve(const std::string& filename);
+  // The file that a parameter names, resolved; "" where it names none.
+  GivenName file_name(ParameterList& p, std::string_view parameter);
   const Source& open_source(const std::string& filename, const Place& place);
 
   // What only the whole scene shows.
@@ -198,8 +200,12 @@ class Reader {
   Place argument_;      // the string last taken as its argument
   bool early_ = false;  // something that belongs after WorldBegin stood before it, and was reported
 
-  std::map<std::string, std::size_t, std::less<>> media_by_name_;  // index into scene_.media
-  std::map<std::string, Place> medium_uses_;                       // the first of each name
+  struct NamedMedium {
+    std::size_t index;  // into scene_.media
+    Place place;        // of its name
+  };
+  std::map<std::string, NamedMedium, std::less<>> media_by_name_;
+  std::map<std::string, Place> medium_uses_;  // the first of each name
   struct VolumeUse {
     std::string inside;
     Transform ctm;

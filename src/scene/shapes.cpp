@@ -155,7 +155,7 @@ TriangleMeshShape Reader::ply_mesh(ParameterList& p) {
                                            printable(name), ply.skipped_faces));
     return std::move(ply.mesh);
   } catch (const InputError& e) {
-    p.error(place, fmt::format("\"{}\" {}", printable(name), printable(e.diagnostics().front().message)));
+    p.error(place, fmt::format("\"{}\" {}", printable(name), e.diagnostics().front().message));
     return {};
   }
 }
@@ -175,7 +175,7 @@ TriangleMeshShape Reader::obj_mesh(ParameterList& p) {
     warn(obj.skipped_elements > 0, fmt::format("has {} points and lines; they are left out", obj.skipped_elements));
     return std::move(obj.mesh);
   } catch (const InputError& e) {
-    p.error(place, fmt::format("\"{}\" {}", printable(name), printable(e.diagnostics().front().message)));
+    p.error(place, fmt::format("\"{}\" {}", printable(name), e.diagnostics().front().message));
     return {};
   }
 }
@@ -243,7 +243,7 @@ void Reader::check_volumes() {
       messages_.error(use.place, "Shape \"volume\" needs a medium: give its name by MediumInterface before");
     const auto medium = media_by_name_.find(use.inside);
     if (medium == media_by_name_.end()) continue;  // reported where it is named
-    const MediumDescription& m = scene_.media[medium->second];
+    const MediumDescription& m = scene_.media[medium->second.index];
     if (std::holds_alternative<HomogeneousMedium>(m.kind))
       messages_.error(use.place, fmt::format("Shape \"volume\" needs a medium with bounds of its own, and \"{}\" is "
                                              "homogeneous: put it inside a closed shape",

@@ -70,8 +70,7 @@ TextureMapping Reader::read_mapping(ParameterList& p) {
 ImageTexture Reader::read_image_texture(ParameterList& p) {
   ImageTexture t;
   p.require(ParameterType::string, "filename");
-  const std::string name = p.string("filename", "");
-  if (!name.empty()) t.filename = resolve(name);
+  t.filename = file_name(p, "filename");
   t.gamma = read_encoding(p);
   const std::size_t filter = p.choice("filter", {"bilinear", "point", "trilinear", "ewa"}, 0);
   if (filter > 1)

@@ -215,11 +215,11 @@ class Writer {
     if (!grid.strength.empty()) list("\"float Lescale\"", grid.strength);
   }
   void medium_kind(const FileMedium& file) {
-    line("  \"string type\" \"{}\" \"string filename\" {}", suffix(file.filename) == ".vol" ? "vol" : "vdb",
-         quoted(file.filename));
-    if (!file.grid.empty()) line("  \"string gridname\" {}", quoted(file.grid));
+    line("  \"string type\" \"{}\" \"string filename\" {}", suffix(file.filename.text) == ".vol" ? "vol" : "vdb",
+         quoted(file.filename.text));
+    if (!file.grid.empty()) line("  \"string gridname\" {}", quoted(file.grid.text));
     if (file.temperature_asked_for || file.temperature_grid.empty())
-      line("  \"string temperaturename\" {}", quoted(file.temperature_grid));
+      line("  \"string temperaturename\" {}", quoted(file.temperature_grid.text));
   }
   void medium_kind(const ProceduralMedium& medium) {
     const Procedural& p = medium.procedural;
@@ -271,7 +271,7 @@ class Writer {
     }
     const bool moved = !is_identity(l.world_from_light);
     if (moved) begin_moved(l.world_from_light);
-    line("LightSource \"infinite\" \"string filename\" {} \"float scale\" {}", quoted(l.filename), l.radiance[0]);
+    line("LightSource \"infinite\" \"string filename\" {} \"float scale\" {}", quoted(l.filename.text), l.radiance[0]);
     if (l.illuminance > 0) line("  \"float illuminance\" {}", l.illuminance);
     portal(l);
     if (moved) end_block();
@@ -318,7 +318,7 @@ class Writer {
   }
   void texture_kind(const ImageTexture& t, bool) {
     const std::string encoding = t.gamma == 0 ? "sRGB" : t.gamma == 1 ? "linear" : fmt::format("gamma {}", t.gamma);
-    line("  \"string filename\" {} \"string encoding\" \"{}\"", quoted(t.filename), encoding);
+    line("  \"string filename\" {} \"string encoding\" \"{}\"", quoted(t.filename.text), encoding);
     line("  \"string filter\" \"{}\" \"string wrap\" \"{}\" \"float scale\" {} \"bool invert\" {}",
          t.bilinear ? "bilinear" : "point", wrap_names[static_cast<std::size_t>(t.wrap)], t.scale, t.invert);
     mapping(t.mapping);
@@ -401,7 +401,7 @@ class Writer {
   void relief(const Relief& r) {
     if (r.displacement >= 0)
       line("  \"texture displacement\" {}", quoted(scene_.textures[static_cast<std::size_t>(r.displacement)].name));
-    if (!r.normal_map.empty()) line("  \"string normalmap\" {}", quoted(r.normal_map));
+    if (!r.normal_map.empty()) line("  \"string normalmap\" {}", quoted(r.normal_map.text));
   }
 
   void area_light(const AreaLight& l) {
@@ -409,7 +409,7 @@ class Writer {
     if (l.filename.empty())
       colour("L", l.radiance);
     else
-      line("  \"string filename\" {} \"float scale\" {}", quoted(l.filename), l.radiance[0]);
+      line("  \"string filename\" {} \"float scale\" {}", quoted(l.filename.text), l.radiance[0]);
     if (l.power > 0) line("  \"float power\" {}", l.power);
   }
 

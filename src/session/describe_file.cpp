@@ -23,7 +23,7 @@ struct DescribeMediumKind {
     return fmt::format("uniform grid of {} x {} x {} voxels", m.resolution[0], m.resolution[1], m.resolution[2]);
   }
   std::string operator()(const FileMedium& m) const {
-    return fmt::format("grid {} of {}", m.grid.empty() ? "by default" : m.grid, m.filename);
+    return fmt::format("grid {} of {}", m.grid.empty() ? "by default" : m.grid.text, m.filename.text);
   }
   std::string operator()(const ProceduralMedium& m) const {
     return fmt::format("procedural {} of {} voxels", m.procedural.table().name, m.procedural.size);
@@ -46,7 +46,8 @@ struct DescribeLight {
   }
   std::string operator()(const InfiniteLight& l) const {
     const std::string_view where = l.portal ? ", through a portal" : "";
-    if (!l.filename.empty()) return fmt::format("infinite, image {} times {}{}", l.filename, text(l.radiance), where);
+    if (!l.filename.empty())
+      return fmt::format("infinite, image {} times {}{}", l.filename.text, text(l.radiance), where);
     return fmt::format("infinite, radiance {}{}", text(l.radiance), where);
   }
   std::string operator()(const SphereLight& l) const {

@@ -7,6 +7,8 @@
 #include <filesystem>
 
 #include "base/file.h"
+#include "base/parallel.h"
+#include "compile/compile.h"
 #include "scene/read_scene.h"
 #include "session/contents.h"
 #include "session/errors.h"
@@ -68,8 +70,8 @@ void check_is_scene(const std::string& path) {
 
 // A scene as text or in another folder must find its volumes and pictures from anywhere.
 SceneDescription with_absolute_names(SceneDescription scene) {
-  const auto make_absolute = [](std::string& name) {
-    if (!name.empty()) name = std::filesystem::absolute(name).lexically_normal().string();
+  const auto make_absolute = [](GivenName& name) {
+    if (!name.empty()) name.text = std::filesystem::absolute(name.text).lexically_normal().string();
   };
   const auto of_shapes = [&](std::vector<ShapeDescription>& shapes) {
     for (ShapeDescription& shape : shapes) {
@@ -91,7 +93,8 @@ SceneDescription with_absolute_names(SceneDescription scene) {
 SceneDescription read_description(const std::vector<std::string>& paths, std::vector<std::string>& warnings,
                                   bool strict) {
   std::vector<Diagnostic> found;
-  SceneDescription scene = read_scene_files(paths, found, strict);
+  const auto file_errors = [](const SceneDescription& scene) { return brume::file_errors(scene, thread_count(0)); };
+  SceneDescription scene = read_scene_files(paths, found, strict, file_errors);
   for (const Diagnostic& warning : found) warnings.push_back(to_string(warning));
   return scene;
 }
@@ -159,6 +162,8 @@ std::string Scene::text() const {
 void Scene::write(const std::string& path) const {
   with_public_errors([&] { write_file_atomically(path, write_scene(with_absolute_names(contents_->description))); });
 }
+
+std::vector<std::string> Scene::input_files() const { return contents_->description.files; }
 
 std::string Scene::output_filename() const { return contents_->description.film.filename; }
 

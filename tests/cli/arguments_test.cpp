@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 
 #include "cli/run_program.h"
@@ -126,6 +127,43 @@ TEST(Arguments, SceneErrorsHaveTheirPlace) {
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.error, HasSubstr("a.pbrt:2:"));
   EXPECT_THAT(folder.names(), ElementsAre("a.pbrt"));
+}
+
+// Those of the text and those of the files that it names, in one go, each with a caret where the file or the grid is
+// named.
+TEST(Arguments, AllErrorsOfASceneAreShownAtOnce) {
+  const TemporaryFolder folder;
+  std::filesystem::copy(BRUME_TEST_FOLDER "/ellipsoid.vdb", folder.file("e.vdb"));
+  write_bytes_to(folder.file("empty.vdb"), "");
+  const std::string text = R"(WorldBegin
+MakeNamedMedium "a" "string type" "vdb" "string filename" "e.vdb" "string gridname" "densty"
+MakeNamedMedium "b" "string type" "vdb" "string filename" "empty.vdb"
+Texture "t" "spectrum" "imagemap" "string filename" "none.png"
+MediumInterface "a" ""
+Shape "volume"
+Material "interface"
+MediumInterface "b" ""
+Shape "sphere"
+)";
+  const std::string errors =
+      R"(a.pbrt:2:85: error: e.vdb: has no grid "densty"; did you mean "density"? it has density (half, fog volume)
+  MakeNamedMedium "a" "string type" "vdb" "string filename" "e.vdb" "string gridname" "densty"
+                                                                                      ^
+a.pbrt:3:59: error: empty.vdb: not an OpenVDB file: it does not begin with the format's mark
+  MakeNamedMedium "b" "string type" "vdb" "string filename" "empty.vdb"
+                                                            ^
+a.pbrt:4:53: error: the image of Texture "t": none.png: cannot be read: No such file or directory
+  Texture "t" "spectrum" "imagemap" "string filename" "none.png"
+                                                      ^
+)";
+  write_bytes_to(folder.file("a.pbrt"), text);
+  EXPECT_EQ(run(folder.path(), {"a.pbrt"}).error, errors);
+  write_bytes_to(folder.file("a.pbrt"), text + "Shape \"sphere\" \"float radus\" 2\n");
+  EXPECT_EQ(run(folder.path(), {"a.pbrt"}).error,
+            errors + R"(a.pbrt:10:16: error: Shape "sphere" has no parameter "float radus"; did you mean "float radius"?
+  Shape "sphere" "float radus" 2
+                 ^
+)");
 }
 
 TEST(Arguments, SeveralFilesAreOneScene) {

@@ -285,6 +285,35 @@ TEST_F(Outputs, NoInputIsReplaced) {
   EXPECT_THAT(folder_.names(), ElementsAre("a.pbrt", "link.pbrt"));
 }
 
+// What a scene includes or names: text, a mesh, a volume, a picture. The last case is the picture that it names for
+// output.
+TEST_F(Outputs, NoInputThatTheSceneNamesIsReplaced) {
+  std::filesystem::copy(BRUME_TEST_FOLDER "/ellipsoid.vdb", folder_.file("smoke.vdb"));
+  expect_success({"a.pbrt", "-o", "sky.exr", "--resolution", "8x8"});
+  std::ofstream(folder_.file("part.pbrt")) << "LightSource \"infinite\" \"string filename\" \"sky.exr\"";
+  const std::string world = R"(
+    WorldBegin
+    Include "part.pbrt"
+    MakeNamedMedium "smoke" "string type" "vdb" "string filename" "smoke.vdb"
+    MediumInterface "smoke" ""
+    Shape "volume")";
+  std::ofstream(folder_.file("s.pbrt")) << R"(Film "rgb" "integer xresolution" 4 "integer yresolution" 4)" << world;
+  std::ofstream(folder_.file("own.pbrt")) << R"(Film "rgb" "string filename" "sky.exr")" << world;
+  const std::string sky = bytes("sky.exr"), part = bytes("part.pbrt"), smoke = bytes("smoke.vdb");
+  const std::vector<std::string> files = folder_.names();
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"s.pbrt", "-o", "./sky.exr"},
+                                                    {"s.pbrt", "--write-scene", "part.pbrt"},
+                                                    {"s.pbrt", "-o", "b.pfm", "--stats-json", "smoke.vdb"},
+                                                    {"own.pbrt"}}) {
+    const Outcome outcome = run(folder_.path(), arguments);
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.error, HasSubstr("is read, so it cannot be an output; name another file"));
+  }
+  EXPECT_EQ(folder_.names(), files);
+  EXPECT_EQ(bytes("sky.exr") + bytes("part.pbrt") + bytes("smoke.vdb"), sky + part + smoke);
+  expect_success({"s.pbrt", "--spp", "1", "-o", "b.pfm", "--write-scene", "c.pbrt", "--stats-json", "d.json"});
+}
+
 // The limit on a file's size, which programs inherit, stands in for a full disk: writing fails after some bytes, when
 // all is rendered.
 TEST_F(Outputs, AFullDiskLeavesNothingBehind) {

@@ -55,7 +55,7 @@ class Agreement : public ::testing::TestWithParam<AgreementScene> {
     AgreementScene s = GetParam();
     for (LightDescription& light : s.scene.lights)
       if (auto* image = std::get_if<InfiniteLight>(&light.kind); image && !image->filename.empty()) {
-        image->filename = folder_.path() + "/" + image->filename;
+        image->filename = folder_.path() + "/" + image->filename.text;
         write_sky(image->filename);
       }
     return s;

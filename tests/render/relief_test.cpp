@@ -48,7 +48,7 @@ class Reliefs : public ::testing::Test {
 
   Relief normal_map(const Spectrum& colour) {
     write({1, 1, {colour[0], colour[1], colour[2]}});
-    return {-1, path_, {}};
+    return {-1, path_};
   }
 
   TemporaryFolder folder_;
@@ -100,7 +100,7 @@ Normal displaced(const std::function<double(const PlacedSurface&, double u, doub
 // Catches bumps that are dents, that have u and v exchanged, or whose height is measured in the shape's own space.
 TEST_P(ReliefOnShapes, BumpMapsTurnNormalsAsDisplacementsDo) {
   const auto value = [](double u, double v) { return ramps(0.25 + u / 6, 0.25 + v / 6); };
-  const auto found = [&](const Normal& expected) { return worst(ramps_texture(), {0, "", {}}, expected); };
+  const auto found = [&](const Normal& expected) { return worst(ramps_texture(), {0, ""}, expected); };
   EXPECT_LT(found(displaced([&](const PlacedSurface&, double u, double v) { return value(u, v); })), 1e-3);
   EXPECT_GT(found(displaced([&](const PlacedSurface&, double u, double v) { return -value(u, v); })), 0.02);
   EXPECT_GT(found(displaced([&](const PlacedSurface&, double u, double v) { return value(v, u); })), 0.02);
@@ -113,7 +113,7 @@ TEST_P(ReliefOnShapes, BumpMapsFollowPlanarMappings) {
   auto& image = std::get<ImageTexture>(texture.kind);
   image.scale = 10 * amplitude;
   image.mapping = {true, 1, 1, 0.5, 0.5, {0.04, 0.01, 0}, {0, 0.03, -0.02}, Transform()};
-  const auto found = [&](const Normal& expected) { return worst(texture, {0, "", {}}, expected); };
+  const auto found = [&](const Normal& expected) { return worst(texture, {0, ""}, expected); };
   EXPECT_LT(found(displaced([](const PlacedSurface& surface, double u, double v) {
               const Vector3 p = surface.point(u, v);
               return 10 * ramps(0.5 + 0.04 * p.x + 0.01 * p.y, 0.5 + 0.03 * p.y - 0.02 * p.z);
@@ -126,7 +126,7 @@ TEST_P(ReliefOnShapes, BumpMapsFollowPlanarMappings) {
 
 TEST_P(ReliefOnShapes, ConstantDisplacementsChangeNothing) {
   const auto found = [&](const TextureDescription& texture) {
-    const Relief relief{0, "", {}};
+    const Relief relief{0, ""};
     const CompiledScene bumped = compiled(place_surface(GetParam(), 2, DiffuseMaterial{}, texture, relief).scene);
     const PlacedSurface plain = place_surface(GetParam(), 2, DiffuseMaterial{}, texture);
     const CompiledScene flat = compiled(plain.scene);
@@ -187,7 +187,7 @@ TEST_F(Reliefs, TiltSquares) {
   EXPECT_GT(length(shading_normal(s) - Vector3{0, 0.5, std::sqrt(0.75)}), 0.1);
 
   s.textures = {ramps_texture()};
-  s.shapes[0].relief = {0, "", {}};
+  s.shapes[0].relief = {0, ""};
   const double u = 0.65, v = 0.55;  // ramps is amplitude (0.1 + 0.8 x + 0.3 y - y x), with x = u / 3, y = v / 3
   const double d_x = amplitude * (0.8 - v / 3) / 3 / 2, d_y = amplitude * (0.3 - u / 3) / 3 / 2;
   const Vector3 expected = normalize({-d_x, -d_y, 1}), reversed = normalize({d_x, d_y, 1});
@@ -215,7 +215,7 @@ TEST_F(Reliefs, DoNothingWithoutDirections) {
   TriangleMeshShape triangle{{{-3, -3, 0}, {3, -3, 0}, {0, 3, 0}}, {{0, 1, 2}}, {{0, 1, 2}, {0, 1, 2}, {0, 1, 2}}};
   triangle.uv = {{0.5, 0.5}, {0.5, 0.5}, {0.5, 0.5}};
   s.shapes[0].kind = triangle;
-  s.shapes[0].relief = {0, "", {}};
+  s.shapes[0].relief = {0, ""};
   const Vector3 smooth = normalize({0, 1, 2});
   EXPECT_LT(length(shading_normal(s) - smooth), 1e-6);
   triangle.uv = {{0, 0}, {1, 0}, {0, 1}};
@@ -245,7 +245,7 @@ TEST_F(Reliefs, AreSeenByAllIntegrators) {
 TEST_F(Reliefs, FilesThatCannotBeReadAreErrorsThatNameThem) {
   SceneDescription s = needle_scene();
   s.shapes = {square_facing_z({0, 0, 0}, 1, 0.5f), square_facing_z({0, 0, 1}, 1, 0.5f)};
-  for (ShapeDescription& shape : s.shapes) shape.relief = {-1, folder_.file("none.png"), {"test.pbrt", 3, 1}};
+  for (ShapeDescription& shape : s.shapes) shape.relief = {-1, {folder_.file("none.png"), {"test.pbrt", 3, 1}}};
   try {
     compiled(s);
     ADD_FAILURE();

@@ -165,7 +165,7 @@ TEST(ReadLights, AreaLightsHaveImages) {
   ASSERT_TRUE(s.shapes[0].light);
   EXPECT_EQ(s.shapes[0].light->filename, "lamp.png");
   EXPECT_EQ(s.shapes[0].light->radiance, constant_spectrum(3));
-  EXPECT_EQ(s.shapes[0].light->location.line, 2);
+  EXPECT_EQ(s.shapes[0].light->filename.location.line, 2);
 }
 
 TEST(ReadLights, ImagesAreTurnedAndScaled) {
