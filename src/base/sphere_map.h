@@ -10,12 +10,15 @@
 
 namespace brume {
 
+enum class SphereMap { equal_area, equirectangular };
+
 struct SquarePoint {
   double u = 0, v = 0;  // in [0, 1]
 };
 
 // The octahedral map of equal areas: a quarter of the square about its centre, |u'| + |v'| < 1, is the upper
 // hemisphere, the corners fold over the lower. Lines from the centre become meridians, rings parallels.
+// Beyond the square's edges, by up to a quarter of it, neighbours stay neighbours and areas equal.
 // Source: P. Clarberg, "Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD", JGT 13(3), 2008.
 inline Vector3 equal_area_direction(SquarePoint p) {
   const double u = 2 * p.u - 1, v = 2 * p.v - 1, a = std::abs(u), b = std::abs(v);
@@ -47,6 +50,14 @@ inline Vector3 equirectangular_direction(SquarePoint p) {
 inline SquarePoint equirectangular_point(Vector3 d) {
   const double turns = std::atan2(d.y, d.x) / (2 * std::numbers::pi);
   return {turns < 0 ? turns + 1 : turns, std::acos(std::clamp(d.z, -1.0, 1.0)) / std::numbers::pi};
+}
+
+inline Vector3 map_direction(SphereMap map, SquarePoint p) {
+  return map == SphereMap::equal_area ? equal_area_direction(p) : equirectangular_direction(p);
+}
+
+inline SquarePoint map_point(SphereMap map, Vector3 d) {
+  return map == SphereMap::equal_area ? equal_area_point(d) : equirectangular_point(d);
 }
 
 }  // namespace brume

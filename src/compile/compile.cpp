@@ -95,16 +95,20 @@ void Compiler::add_camera() {
   const CameraDescription& camera = scene_.camera;
   compiled_.camera_medium = medium_index(camera.medium, camera.location);
   const double width = scene_.film.width, height = scene_.film.height;
+  CompiledCamera& c = compiled_.camera;
+  c.world_from_camera = camera.world_from_camera;
+  const Vector3 eye = camera.world_from_camera.point({});
+  check_range({eye, eye}, "the camera", camera.location);
+  c.sphere_map = camera.sphere_map;
+  c.dx = 1 / width;
+  c.dy = 1 / height;
+  if (c.sphere_map) return;
   std::array<double, 4> window = camera.screen_window;
   if (window == std::array<double, 4>{}) {
     const double x = std::max(1.0, width / height), y = std::max(1.0, height / width);
     window = {-x, x, -y, y};
   }
   const double scale = std::tan(camera.fov * std::numbers::pi / 360);
-  CompiledCamera& c = compiled_.camera;
-  c.world_from_camera = camera.world_from_camera;
-  const Vector3 eye = camera.world_from_camera.point({});
-  check_range({eye, eye}, "the camera", camera.location);
   c.x0 = scale * window[0];
   c.dx = scale * (window[1] - window[0]) / width;
   c.y0 = scale * window[3];

@@ -43,7 +43,7 @@ double append_cdf(const std::vector<double>& weights, std::vector<float>& cdf) {
 double add_table(CompiledEnvironment& e) {
   std::vector<double> rows(e.height), pixels(e.width);
   for (std::uint32_t y = 0; y < e.height; ++y) {
-    const double share = e.projection == CompiledEnvironment::Projection::equal_area
+    const double share = e.map == SphereMap::equal_area
                              ? 1.0 / e.height
                              : 0.5 * (std::cos(pi * y / e.height) - std::cos(pi * (y + 1) / e.height));
     const double solid_angle = 4 * pi * share / e.width;
@@ -60,8 +60,7 @@ double illuminance(const CompiledEnvironment& e) {
   for (std::uint32_t y = 0; y < e.height; ++y)
     for (std::uint32_t x = 0; x < e.width; ++x) {
       const SquarePoint centre{(x + 0.5) / e.width, (y + 0.5) / e.height};
-      const Vector3 d = e.projection == CompiledEnvironment::Projection::equal_area ? equal_area_direction(centre)
-                                                                                    : equirectangular_direction(centre);
+      const Vector3 d = map_direction(e.map, centre);
       const float* rgb = e.pixels.data() + 3 * (static_cast<std::size_t>(y) * e.width + x);
       sum += std::max(0.0, d.z) * static_cast<double>(e.pixel_solid_angle[y]) * luminance({{rgb[0], rgb[1], rgb[2]}});
     }
@@ -285,8 +284,7 @@ bool Compiler::read_environment(const GivenName& filename, CompiledEnvironment& 
   if (negative)
     warnings_.push_back(
         {Severity::warning, location, fmt::format("{} has negative pixels; they are taken as 0", filename.text), {}});
-  e.projection = image.width == image.height ? CompiledEnvironment::Projection::equal_area
-                                             : CompiledEnvironment::Projection::equirectangular;
+  e.map = image.width == image.height ? SphereMap::equal_area : SphereMap::equirectangular;
   e.width = static_cast<std::uint32_t>(image.width);
   e.height = static_cast<std::uint32_t>(image.height);
   e.pixels = std::move(image.pixels);

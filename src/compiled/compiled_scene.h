@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "base/pixel_box.h"
 #include "base/pixel_filter.h"
 #include "base/spectrum.h"
+#include "base/sphere_map.h"
 #include "kernel/scalar.h"
 
 namespace brume {
@@ -229,7 +231,7 @@ inline bool is_textured(const CompiledLight& light) { return light.texture >= 0 
 // their channels times solid angle. Row i holds the pixels [i width, (i + 1) width); cumulative chances begin with 0
 // and end with 1.
 struct CompiledEnvironment {
-  enum class Projection { equal_area, equirectangular } projection = Projection::equal_area;
+  SphereMap map = SphereMap::equal_area;
   std::uint32_t width = 0, height = 0;
   Transform light_from_world, world_from_light;  // rotations, mirroring allowed
   std::vector<float> pixels;                     // 3 a pixel
@@ -249,8 +251,9 @@ struct CompiledPortal {
 
 struct CompiledCamera {
   Transform world_from_camera;
+  std::optional<SphereMap> sphere_map;  // of a camera that shows all directions
   // Camera-space ray through the picture's point (x, y), in pixels from the top left, and the middle of the lens:
-  // (x0 + x dx, y0 + y dy, 1).
+  // (x0 + x dx, y0 + y dy, 1); with a sphere_map, its point (x0 + x dx, y0 + y dy).
   double x0 = 0, dx = 0, y0 = 0, dy = 0;
   double lens_radius = 0, focal_distance = 1e6;  // in camera space
   bool has_lens() const { return lens_radius > 0; }

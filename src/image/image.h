@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,8 @@ struct ImageMetadata {
   double render_time_seconds = 0;
   Transform camera_from_world;  // EXR worldToCamera
   // EXR worldToNDC, a projective matrix for columns: x, y in [0, 1] across the picture, y down, after division by w.
-  std::array<std::array<double, 4>, 4> ndc_from_world{};
+  // Of perspective cameras only.
+  std::optional<std::array<std::array<double, 4>, 4>> ndc_from_world{};
   std::uint32_t seed = 0;
   ColourSpace colour_space = ColourSpace::srgb;  // of the pixels; EXR chromaticities. A PNG is turned into sRGB
   // EXR only, of a picture that is a part of a larger one (dataWindow within displayWindow): the place of its first

@@ -28,12 +28,14 @@ void find(const Imf::Header& header, const char* name, Value& value) {
 }
 
 // From OpenEXR's matrices, which act on row vectors.
-void find_matrix(const Imf::Header& header, const char* name, std::array<std::array<double, 4>, 4>& m) {
+std::optional<std::array<std::array<double, 4>, 4>> find_matrix(const Imf::Header& header, const char* name) {
   const auto* attribute = header.findTypedAttribute<Imf::M44fAttribute>(name);
-  if (!attribute) return;
+  if (!attribute) return std::nullopt;
+  std::array<std::array<double, 4>, 4> m{};
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j)
       m[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = static_cast<double>(attribute->value()[j][i]);
+  return m;
 }
 
 const Imf::Channel* find_channel(const Imf::InputFile& file, const char* name) {
@@ -69,8 +71,8 @@ ImageMetadata decode_exr_metadata(std::string_view bytes) {
   find<Imf::FloatAttribute>(header, "renderTimeSeconds", metadata.render_time_seconds);
   find<Imf::IntAttribute>(header, "partial", metadata.partial);
   find<Imf::StringAttribute>(header, "software", metadata.software);
-  find_matrix(header, "worldToCamera", metadata.camera_from_world.m);
-  find_matrix(header, "worldToNDC", metadata.ndc_from_world);
+  if (const auto m = find_matrix(header, "worldToCamera")) metadata.camera_from_world.m = *m;
+  metadata.ndc_from_world = find_matrix(header, "worldToNDC");
   const Imath::Box2i whole = header.displayWindow(), window = header.dataWindow();
   if (whole != window) {
     metadata.x = window.min.x - whole.min.x;

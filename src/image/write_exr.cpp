@@ -70,7 +70,8 @@ Imf::Header make_header(const Image& image, const ImageMetadata& metadata) {
   header.insert("samplesPerPixel", Imf::IntAttribute(metadata.samples_per_pixel));
   header.insert("renderTimeSeconds", Imf::FloatAttribute(static_cast<float>(metadata.render_time_seconds)));
   header.insert("worldToCamera", Imf::M44fAttribute(row_vector_matrix(metadata.camera_from_world.m)));
-  header.insert("worldToNDC", Imf::M44fAttribute(row_vector_matrix(metadata.ndc_from_world)));
+  if (metadata.ndc_from_world)
+    header.insert("worldToNDC", Imf::M44fAttribute(row_vector_matrix(*metadata.ndc_from_world)));
   // An attribute of integers is signed; a seed is not.
   header.insert("seed", Imf::StringAttribute(std::to_string(metadata.seed)));
   header.insert("partial", Imf::IntAttribute(metadata.partial ? 1 : 0));

@@ -83,7 +83,7 @@ class TileRenderer {
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       auto& [ray, random, radiance, seen] = samples_[i];
       if (reference_) radiance = reference_->radiance(ray, random, seen);
-      seen.depth *= dot(ray.direction, camera_axis(scene_.camera));
+      seen.depth *= CameraDepth(scene_.camera).along(ray.direction);
       film.add(places_[i].x, places_[i].y, radiance, seen, places_[i].filter_weight);
     }
     samples_.clear();

@@ -62,8 +62,7 @@ Spectrum pixel(const CompiledEnvironment& e, std::uint32_t column, std::uint32_t
 Vector3 direction_in_pixel(const CompiledEnvironment& e, std::uint32_t column, std::uint32_t row, double right,
                            double down) {
   const double u = (column + right) / e.width;
-  if (e.projection == CompiledEnvironment::Projection::equal_area)
-    return equal_area_direction({u, (row + down) / e.height});
+  if (e.map == SphereMap::equal_area) return equal_area_direction({u, (row + down) / e.height});
   const double upper = std::cos(std::numbers::pi * row / e.height),
                lower = std::cos(std::numbers::pi * (row + 1) / e.height);
   const double z = upper + down * (lower - upper), ring = std::sqrt(std::max(0.0, 1 - z * z)),
@@ -73,8 +72,7 @@ Vector3 direction_in_pixel(const CompiledEnvironment& e, std::uint32_t column, s
 
 void find_pixel(const CompiledEnvironment& e, vec3 direction, std::uint32_t& column, std::uint32_t& row) {
   const Vector3 d = normalize(e.light_from_world.vector(to_double(direction)));
-  const SquarePoint p =
-      e.projection == CompiledEnvironment::Projection::equal_area ? equal_area_point(d) : equirectangular_point(d);
+  const SquarePoint p = map_point(e.map, d);
   column = std::min(static_cast<std::uint32_t>(p.u * e.width), e.width - 1);
   row = std::min(static_cast<std::uint32_t>(p.v * e.height), e.height - 1);
 }

@@ -44,7 +44,7 @@ VolpathIntegrator::VolpathIntegrator(const CompiledScene& scene, const Intersect
     : scene_(scene),
       intersector_(intersector),
       filter_(filter),
-      axis_(camera_axis(scene.camera)),
+      depth_(scene.camera),
       aim_(make_aim(scene, media)),
       last_depth_(scene.integrator.max_depth - (paths_meet_light(scene) ? 0 : 1)),
       media_(scene, intersector, media),
@@ -314,7 +314,7 @@ void VolpathIntegrator::end_flights() {
     const bool collides = paths_.flight.medium[i] != no_medium;
     if (paths_.depth[i] == 0 && (collides || has_surface))
       foregrounds_[paths_.target[i]].add(
-          share, dot(at(paths_.ray.direction, i), axis_) * (collides ? paths_.flight.t[i] : hits_[i].t));
+          share, depth_.along(at(paths_.ray.direction, i)) * (collides ? paths_.flight.t[i] : hits_[i].t));
     collisions += collides;
     if (collides) continue;
     if (has_surface) {

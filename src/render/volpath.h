@@ -16,6 +16,7 @@
 
 #include "image/film.h"
 #include "image/filter.h"
+#include "render/camera_ray.h"
 #include "render/emission_placement.h"
 #include "render/light_table.h"
 #include "render/paths.h"
@@ -80,7 +81,7 @@ class VolpathIntegrator {
   const CompiledScene& scene_;
   const Intersector& intersector_;
   const Filter& filter_;
-  const kernel::vec3 axis_;  // the camera's
+  const CameraDepth depth_;
   const Aim aim_;
   const int last_depth_;  // paths that have been scattered more often meet no light any more
   MediumTasks media_, shadow_media_;

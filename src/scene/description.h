@@ -23,6 +23,7 @@
 #include "base/pixel_filter.h"
 #include "base/procedural.h"
 #include "base/spectrum.h"
+#include "base/sphere_map.h"
 #include "kernel/phase_table.h"
 
 namespace brume {
@@ -70,8 +71,12 @@ struct SamplerDescription {
 // pbrt's, in the order of PixelFilter::Kind.
 inline constexpr std::string_view filter_names[] = {"box", "gaussian", "mitchell", "triangle", "sinc"};
 
+inline constexpr std::string_view sphere_map_names[] = {"equalarea", "equirectangular"};
+
 struct CameraDescription {
-  Transform world_from_camera;            // camera space: +x right, +y up, +z forward
+  Transform world_from_camera;  // camera space: +x right, +y up, +z forward
+  // Shows all directions, with +y for the map's +z and +z for its +y; fov to focal_distance are of no use then.
+  std::optional<SphereMap> sphere_map;
   double fov = 90;                        // degrees across the shorter image side
   std::array<double, 4> screen_window{};  // x0 x1 y0 y1; all 0: from the aspect of the film
   double lens_radius = 0;                 // in camera space, as is the next; 0: a pinhole

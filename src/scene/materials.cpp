@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/old_materials.h"
 #include "scene/reader.h"
+#include "scene/refractive_indices.h"
 
 namespace brume {
 
@@ -15,35 +17,6 @@ constexpr double least_index = 0.01, greatest_index = 100;
 constexpr float usual_index = 1.5f;
 constexpr double least_alpha = 1e-3;
 
-// pbrt's metals, at the wavelengths that stand for red, green and blue: 617, 549 and 471 nm, photons of 2.01, 2.26 and
-// 2.63 eV. Rounded from P. B. Johnson and R. W. Christy, "Optical constants of the noble metals", Phys. Rev. B 6, 1972
-// (Ag, Au, Cu); A. D. Rakic, "Algorithm for the determination of intrinsic optical constants of metal films", Appl.
-// Opt. 34(22), 1995 (Al); J. R. DeVore, "Refractive indices of rutile and sphalerite", JOSA 41, 1951 (TiO2, ordinary
-// ray); R. E. Stephens and I. H. Malitson, "Index of refraction of magnesium oxide", J. Res. NBS 49, 1952 (MgO); for
-// brass, M. R. Querry's measurement as it is commonly given for red, green and blue.
-struct Metal {
-  std::string_view name;
-  Spectrum eta, k;
-};
-constexpr Metal metals[] = {{"Ag", {{0.06f, 0.06f, 0.05f}}, {{4.152f, 3.586f, 2.869f}}},
-                            {"Al", {{1.29f, 0.97f, 0.68f}}, {{7.43f, 6.65f, 5.67f}}},
-                            {"Au", {{0.21f, 0.43f, 1.31f}}, {{3.272f, 2.455f, 1.849f}}},
-                            {"Cu", {{0.30f, 1.02f, 1.25f}}, {{3.205f, 2.577f, 2.483f}}},
-                            {"CuZn", {{0.444f, 0.527f, 1.094f}}, {{3.695f, 2.765f, 1.829f}}},
-                            {"MgO", {{1.736f, 1.740f, 1.746f}}, {{0, 0, 0}}},
-                            {"TiO2", {{2.594f, 2.648f, 2.744f}}, {{0, 0, 0}}}};
-constexpr std::size_t copper = 3;
-
-// pbrt's glasses by their index at 587.6 nm, from their makers' data sheets: there is no dispersion. Its F5, F10 and
-// F11 are Schott's SF5, SF10 and SF11.
-struct Glass {
-  std::string_view name;
-  float eta;
-};
-constexpr Glass glasses[] = {{"glass-BK7", 1.5168f},   {"glass-BAF10", 1.6700f}, {"glass-FK51A", 1.4866f},
-                             {"glass-LASF9", 1.8503f}, {"glass-F5", 1.6727f},    {"glass-F10", 1.7283f},
-                             {"glass-F11", 1.7847f}};
-
 // The name of the spectrum that the parameter gives, "" where it gives none by name.
 std::string spectrum_name(ParameterList& p, std::string_view parameter) {
   const Parameter* found = p.find(ParameterType::spectrum, parameter);
@@ -52,9 +25,9 @@ std::string spectrum_name(ParameterList& p, std::string_view parameter) {
 
 Spectrum read_complex_index(ParameterList& p, std::string_view parameter, Spectrum Metal::*part) {
   const std::string name = spectrum_name(p, parameter);
-  if (name.empty()) return p.colour(parameter, metals[copper].*part, ColourUse::coefficient);
+  if (name.empty()) return p.colour(parameter, copper().*part, ColourUse::coefficient);
   std::vector<std::string> names;
-  for (const Metal& metal : metals) {
+  for (const Metal& metal : metals()) {
     if (name == fmt::format("metal-{}-{}", metal.name, parameter)) return metal.*part;
     names.push_back(fmt::format("\"metal-{}-{}\"", metal.name, parameter));
   }
@@ -113,7 +86,7 @@ float read_eta(ParameterList& p) {
     return eta;
   }
   std::vector<std::string> names;
-  for (const Glass& glass : glasses) {
+  for (const Glass& glass : glasses()) {
     if (name == glass.name) return glass.eta;
     names.emplace_back(fmt::format("\"{}\"", glass.name));
   }
@@ -129,6 +102,7 @@ DielectricMaterial read_dielectric(ParameterList& p) {
 }
 
 CoatedDiffuseMaterial read_coated_diffuse(ParameterList& p) {
+  p.rename("Kd", "reflectance");
   // pbrt's way to compute the same surface by random walks between base and coat.
   p.ignore({"float thickness", "float g", "integer maxdepth", "integer nsamples"});
   for (const ParameterType type : {ParameterType::rgb, ParameterType::spectrum})
@@ -170,14 +144,11 @@ std::string doubt_about(const BlinnPhongMaterial& m) {
 }  // namespace
 
 MaterialDescription Reader::read_surface(const std::string& given, const Place& type_place, ParameterList& p) {
-  std::string type = given;
-  if (type.empty() || type == "none") {
-    messages_.old_spelling(directive_.place, fmt::format("the material \"{}\" is now called \"interface\"", type));
-    type = "interface";
-  }
-  if (type == "matte") {
-    messages_.old_spelling(directive_.place, "the material \"matte\" is now called \"diffuse\"");
-    type = "diffuse";
+  const OldMaterial* const old = find_old_material(given);
+  const std::string type(old ? old->now : given);
+  if (old) {
+    messages_.old_spelling(directive_.place, fmt::format("the material \"{}\" is now called \"{}\"", given, type));
+    translate(*old, p);
   }
   MaterialDescription material;
   if (type == "diffuse")
@@ -214,6 +185,7 @@ MaterialDescription Reader::read_surface(const std::string& given, const Place& 
 Relief Reader::read_relief(ParameterList& p) {
   Relief relief;
   Textured displacement;
+  p.rename("bumpmap", "displacement");
   use_texture(p, "displacement", true, displacement);
   p.ignore({"float displacement"});  // moves all points alike
   relief.displacement = displacement.texture;

@@ -29,18 +29,33 @@ bool contains(const std::vector<std::string_view>& names, std::string_view name)
 }  // namespace
 
 void Reader::camera() {
-  const std::string type = string_argument("a type");
-  if (type != "perspective")
-    unknown_type(argument_, "Camera", type, {"perspective"}, {"orthographic", "spherical", "realistic", "environment"});
-  ParameterList p = parameters("Camera \"perspective\"");
+  std::string type = string_argument("a type");
+  const bool is_environment = type == "environment";
+  if (is_environment) {
+    messages_.old_spelling(directive_.place,
+                           "Camera \"environment\" is now \"spherical\" with \"string mapping\" \"equirectangular\"");
+    type = "spherical";
+  }
+  if (type != "perspective" && type != "spherical")
+    unknown_type(argument_, "Camera", type, {"perspective", "spherical"}, {"orthographic", "realistic"});
+  ParameterList p = parameters(fmt::format("Camera \"{}\"", type));
   scene_.camera.location = location(directive_.place);
   scene_.camera.world_from_camera = inverse(usable_ctm("the camera"));
   scene_.camera.medium = state_.outside;
   coordinate_systems_["camera"] = scene_.camera.world_from_camera;
-  scene_.camera.fov = p.number("fov", 90, Range::between(0, 180));
-  screen_window(p);
-  scene_.camera.lens_radius = p.number("lensradius", 0, Range::at_least(0));
-  scene_.camera.focal_distance = p.number("focaldistance", 1e6, Range::above(0));
+  if (type == "spherical") {
+    const SphereMap usual = is_environment ? SphereMap::equirectangular : SphereMap::equal_area;
+    scene_.camera.sphere_map = static_cast<SphereMap>(p.choice(
+        "mapping", {std::begin(sphere_map_names), std::end(sphere_map_names)}, static_cast<std::size_t>(usual)));
+    p.warn({"float lensradius", "float focaldistance", "float frameaspectratio", "float screenwindow"},
+           "has no effect: it shows all directions, and all of them sharp");
+  } else {
+    scene_.camera.sphere_map.reset();
+    scene_.camera.fov = p.number("fov", 90, Range::between(0, 180));
+    screen_window(p);
+    scene_.camera.lens_radius = p.number("lensradius", 0, Range::at_least(0));
+    scene_.camera.focal_distance = p.number("focaldistance", 1e6, Range::above(0));
+  }
   const double open = p.number("shutteropen", 0), close = p.number("shutterclose", 1);
   if (!(close > open))
     p.error(p.place(), fmt::format("the shutter of {} must close after it opens; it opens at {} and closes "
@@ -135,6 +150,12 @@ void Reader::gaussian_sigma(ParameterList& p) {
 
 void Reader::integrator() {
   std::string type = string_argument("a type");
+  const bool is_direct_lighting = type == "directlighting";
+  if (is_direct_lighting) {
+    messages_.old_spelling(directive_.place,
+                           "Integrator \"directlighting\" is now \"path\" with \"integer maxdepth\" 1");
+    type = "path";
+  }
   const std::vector<std::string_view> types(std::begin(integrator_names), std::end(integrator_names));
   if (!contains(types, type)) unknown_type(argument_, "Integrator", type, types, {"function"});
   ParameterList p = parameters(fmt::format("Integrator \"{}\"", type));
@@ -151,6 +172,10 @@ void Reader::integrator() {
     i.volume_shadows = static_cast<VolumeShadows>(p.choice("volumeshadows", {"march", "cached"}, 0));
     i.shadow_samples = static_cast<int>(p.integer("shadowsamples", 1, 1, max_shadow_samples));
   } else if (type != "reference") {
+    if (is_direct_lighting) {
+      i.max_depth = 1;
+      p.ignore({"string strategy"});
+    }
     p.rename("lightsamplestrategy", "lightsampler");
     p.ignore({"string lightsampler", "bool regularize", "bool samplelights", "bool samplebsdf",
               "bool visualizestrategies", "bool visualizeweights", "integer bootstrapsamples", "integer chains",

@@ -155,15 +155,23 @@ class Writer {
     if (!camera.medium.empty()) line("MediumInterface \"\" {}", quoted(camera.medium));
     line("# Camera from world; the camera looks along its +z, +y is up and +x is right in the picture.");
     if (!is_identity(camera.world_from_camera)) matrix(inverse(camera.world_from_camera));
+    if (camera.sphere_map)
+      line("Camera \"spherical\" \"string mapping\" \"{}\"",
+           sphere_map_names[static_cast<std::size_t>(*camera.sphere_map)]);
+    else
+      perspective(camera);
+    if (camera.shutter_open != 0 || camera.shutter_close != 1)
+      line("  \"float shutteropen\" {} \"float shutterclose\" {}", camera.shutter_open, camera.shutter_close);
+    // What the Camera directive records lasts; nothing below is to inherit it.
+    if (!camera.medium.empty()) line("MediumInterface \"\"");
+  }
+
+  void perspective(const CameraDescription& camera) {
     line("Camera \"perspective\" \"float fov\" {}", camera.fov);
     const std::array<double, 4>& w = camera.screen_window;
     if (w != std::array<double, 4>{}) line("  \"float screenwindow\" [{} {} {} {}]", w[0], w[1], w[2], w[3]);
     if (camera.lens_radius != 0 || camera.focal_distance != CameraDescription().focal_distance)
       line("  \"float lensradius\" {} \"float focaldistance\" {}", camera.lens_radius, camera.focal_distance);
-    if (camera.shutter_open != 0 || camera.shutter_close != 1)
-      line("  \"float shutteropen\" {} \"float shutterclose\" {}", camera.shutter_open, camera.shutter_close);
-    // What the Camera directive records lasts; nothing below is to inherit it.
-    if (!camera.medium.empty()) line("MediumInterface \"\"");
   }
 
   void medium(const MediumDescription& m) {

@@ -73,8 +73,9 @@ std::string describe_scene(const std::string& path) {
   std::string lines = fmt::format("{}: scene\n", path);
   lines += fmt::format("  film: {} x {} pixels, {} samples per pixel, to {}\n", scene.film.width, scene.film.height,
                        scene.sampler.pixel_samples, scene.film.filename);
-  lines += fmt::format("  camera: at {}, field of view {:.4g} degrees\n",
-                       text(scene.camera.world_from_camera.point({})), scene.camera.fov);
+  lines += fmt::format(
+      "  camera: at {}, {}\n", text(scene.camera.world_from_camera.point({})),
+      scene.camera.sphere_map ? "all directions" : fmt::format("field of view {:.4g} degrees", scene.camera.fov));
   lines += fmt::format("  integrator: {}, maxdepth {}\n", scene.integrator.name, scene.integrator.max_depth);
   for (const MediumDescription& medium : scene.media)
     lines += fmt::format("  medium {}: {}, sigma_s {}, sigma_a {}, {}\n", medium.name,

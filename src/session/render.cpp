@@ -144,7 +144,7 @@ ImageMetadata make_metadata(const CompiledScene& scene, const SceneDescription& 
   metadata.samples_per_pixel = picture.samples_per_pixel;
   metadata.render_time_seconds = picture.seconds;
   metadata.camera_from_world = inverse(scene.camera.world_from_camera);
-  metadata.ndc_from_world = ndc_from_world(scene, metadata.camera_from_world);
+  if (!scene.camera.sphere_map) metadata.ndc_from_world = ndc_from_world(scene, metadata.camera_from_world);
   metadata.seed = scene.seed;
   metadata.colour_space = description.film.colour_space;
   if (picture.width != scene.width || picture.height != scene.height) {

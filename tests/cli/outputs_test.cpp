@@ -76,7 +76,8 @@ TEST_F(Outputs, ManyAtOnce) {
   EXPECT_THAT(metadata.software, HasSubstr("Brume"));
   // The camera looks from (0, 0, 5) at the origin: 5 in front of it, in the middle of the picture.
   EXPECT_NEAR(metadata.camera_from_world.point({0, 0, 0}).z, 5, 1e-5);
-  const auto& m = metadata.ndc_from_world;
+  ASSERT_TRUE(metadata.ndc_from_world);
+  const auto& m = *metadata.ndc_from_world;
   EXPECT_NEAR(m[0][3] / m[3][3], 0.5, 1e-5);
   EXPECT_NEAR(m[1][3] / m[3][3], 0.5, 1e-5);
   // fov 30 degrees across the height of 4 pixels: a point at y = 5 tan 15 degrees is at the upper edge, v = 0.

@@ -12,6 +12,30 @@ MaterialDescription material_of(const std::string& text) {
   return s.shapes.empty() ? MaterialDescription{} : s.shapes[0].material;
 }
 
+// The defaults are those of pbrt-v3.
+TEST(ReadMaterials, OldOnesAreReadAsThoseOfToday) {
+  const auto metal = std::get<ConductorMaterial>(material_of("\"metal\""));
+  EXPECT_EQ(metal.eta, std::get<ConductorMaterial>(material_of("\"conductor\"")).eta);
+  EXPECT_FLOAT_EQ(metal.alpha, 0.1f);
+  const auto silver = std::get<ConductorMaterial>(
+      material_of("\"conductor\" \"spectrum eta\" \"metal-Ag-eta\" \"spectrum k\" \"metal-Ag-k\""));
+  EXPECT_EQ(std::get<ConductorMaterial>(material_of("\"mirror\"")).k, silver.k);
+  EXPECT_EQ(std::get<ConductorMaterial>(material_of("\"mirror\"")).eta, silver.eta);
+  EXPECT_EQ(std::get<ConductorMaterial>(material_of("\"mirror\" \"rgb Kr\" [0.5 0.9 1]")).k,
+            std::get<ConductorMaterial>(material_of("\"conductor\" \"rgb reflectance\" [0.5 0.9 1]")).k);
+  const auto plastic = std::get<CoatedDiffuseMaterial>(material_of("\"plastic\""));
+  EXPECT_EQ(plastic.reflectance.value, constant_spectrum(0.25f));
+  EXPECT_FLOAT_EQ(plastic.alpha, std::sqrt(0.1f));
+  const auto uber =
+      std::get<CoatedDiffuseMaterial>(material_of("\"uber\" \"rgb Kd\" [0.1 0.2 0.3] \"float index\" 1.4"));
+  EXPECT_EQ(uber.reflectance.value, (Spectrum{{0.1f, 0.2f, 0.3f}}));
+  EXPECT_EQ(uber.eta, 1.4f);
+  const auto substrate = std::get<CoatedDiffuseMaterial>(material_of("\"substrate\" \"float roughness\" 0.04"));
+  EXPECT_EQ(substrate.reflectance.value, constant_spectrum(0.5f));
+  EXPECT_FLOAT_EQ(substrate.alpha, 0.2f);
+  EXPECT_EQ(std::get<DielectricMaterial>(material_of("\"glass\" \"float index\" 1.3")).eta, 1.3f);
+}
+
 TEST(ReadMaterials, ConductorsByNameByNumbersAndByReflectance) {
   const auto gold = std::get<ConductorMaterial>(
       material_of("\"conductor\" \"spectrum eta\" \"metal-Au-eta\" \"spectrum k\" \"metal-Au-k\""));

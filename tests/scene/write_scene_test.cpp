@@ -222,6 +222,7 @@ void expect_equal(const SceneDescription& a, const SceneDescription& b) {
   EXPECT_EQ(a.integrator.volume_shadows, b.integrator.volume_shadows);
   EXPECT_EQ(a.integrator.shadow_samples, b.integrator.shadow_samples);
   expect_equal(a.camera.world_from_camera, b.camera.world_from_camera, 1e-14);
+  EXPECT_EQ(a.camera.sphere_map, b.camera.sphere_map);
   EXPECT_EQ(a.camera.fov, b.camera.fov);
   EXPECT_EQ(a.camera.screen_window, b.camera.screen_window);
   EXPECT_EQ(a.camera.lens_radius, b.camera.lens_radius);
@@ -308,6 +309,14 @@ TEST(WriteScene, EverySamplerAndFilterReadsBackTheSame) {
                                             {Kind::sinc, 3.7f, 4.1f, 0.5f, 1 / 3.0f, 1 / 3.0f, 2.9f}};
   for (const PixelFilter& filter : filters) {
     scene.filter = filter;
+    expect_round_trip(scene);
+  }
+}
+
+TEST(WriteScene, ACameraOfAllDirectionsReadsBackTheSame) {
+  for (const SphereMap map : {SphereMap::equal_area, SphereMap::equirectangular}) {
+    SceneDescription scene;
+    scene.camera.sphere_map = map;
     expect_round_trip(scene);
   }
 }
