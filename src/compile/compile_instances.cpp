@@ -6,6 +6,7 @@
 
 #include "compile/compiler.h"
 #include "intersect/intersector.h"
+#include "intersect/quadric.h"
 
 namespace brume {
 
@@ -46,7 +47,7 @@ Box3 Compiler::bounds_of(std::span<const CompiledShape> shapes) const {
   Box3 box;
   for (const CompiledShape& shape : shapes) {
     if (shape.kind == CompiledShape::Kind::quadric) {
-      const Box3 b = quadric_box(compiled_.quadrics[shape.index]);
+      const Box3 b = quadric_bounds(compiled_.quadrics[shape.index]);
       box.include(b.lo);
       box.include(b.hi);
       continue;

@@ -7,6 +7,7 @@
 #include "base/sphere_map.h"
 #include "compile/compiler.h"
 #include "image/image.h"
+#include "intersect/quadric.h"
 #include "scene/colour.h"
 
 namespace brume {
@@ -419,7 +420,7 @@ double Compiler::scene_radius() const {
   for (std::size_t i = first_world_vertex_; i < compiled_.positions.size(); ++i)
     box.include(to_double(compiled_.positions[i]));
   for (std::size_t i = first_world_quadric_; i < compiled_.quadrics.size(); ++i)
-    include(quadric_box(compiled_.quadrics[i]));
+    include(quadric_bounds(compiled_.quadrics[i]));
   for (const CompiledVolume& v : compiled_.volumes)
     include(bounds(inverse(v.region.local_from_world), Box3{to_double(v.region.lo), to_double(v.region.hi)}));
   std::vector<Box3> objects;

@@ -129,11 +129,6 @@ Vector3 world_normal(const ShapeDescription& shape, Vector3 n) {
   return shape.reverse_orientation ? -world : world;
 }
 
-Box3 quadric_box(const CompiledQuadric& quadric) {
-  const double lo = quadric.kind == CompiledQuadric::Kind::saddle ? 0 : -1;
-  return bounds(quadric.world_from_object, Box3{{lo, lo, lo}, {1, 1, 1}});
-}
-
 void Compiler::add_shape(const ShapeDescription& shape) {
   const std::int32_t inside = medium_index(shape.inside, shape.location);
   const std::int32_t outside = medium_index(shape.outside, shape.location);

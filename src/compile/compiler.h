@@ -23,9 +23,6 @@ bool flips_normal(const ShapeDescription& shape);
 // A shading normal of the shape in the world.
 Vector3 world_normal(const ShapeDescription& shape, Vector3 n);
 
-// A box about the quadric, in the world.
-Box3 quadric_box(const CompiledQuadric& quadric);
-
 class Compiler {
  public:
   Compiler(const SceneDescription& scene, int threads) : scene_(scene), threads_(threads) {}

@@ -23,6 +23,7 @@ struct LightTable {
   std::vector<int> lights;
   std::vector<float> cdf;     // of `lights`
   std::vector<float> chance;  // by light of the scene; 0 for those that are not in the table
+  float total = 0;            // of the chances that they have among all lights of the scene
 
   // The light for u in [0, 1), below 0 where there is none.
   int pick(float u) const;

@@ -118,9 +118,7 @@ void VolpathIntegrator::make_jobs() {
     }
     set_lights(job, lights_at_collisions(medium));
     // Chances are other ones here than at surfaces; multiple importance sampling sees their ratio in the density.
-    for (std::size_t k = 0; k < scene_.lights.size(); ++k)
-      if (places && !has_grid && other_lights_.chance[k] > 0)
-        job.density_scale = all_lights_.chance[k] / other_lights_.chance[k];
+    if (places && !has_grid && other_lights_.total > 0) job.density_scale = other_lights_.total / all_lights_.total;
     jobs_.push_back(job);
   }
 }
@@ -356,7 +354,8 @@ void VolpathIntegrator::see_environment(std::uint32_t path, float share) {
   }
 }
 
-void VolpathIntegrator::send_shadow_ray(std::uint32_t path, const Ray& ray, const Spectrum& value) {
+void VolpathIntegrator::send_shadow_ray(std::uint32_t path, std::uint32_t depth, const Ray& ray,
+                                        const Spectrum& value) {
   if (is_zero(value)) return;
   make_room_for_shadow_rays(1);
   const std::uint32_t i = shadow_count_++;
@@ -364,7 +363,7 @@ void VolpathIntegrator::send_shadow_ray(std::uint32_t path, const Ray& ray, cons
   set(shadows_.ray.origin, i, ray.origin);
   set(shadows_.ray.direction, i, ray.direction);
   shadows_.ray.t_max[i] = ray.t_max;
-  shadows_.ray.key[i] = kernel::hash_word(paths_.ray.key[path] ^ 0x5bd1e995u);
+  shadows_.ray.key[i] = kernel::hash_word(event_key(scene_.seed, depth) ^ 0x5bd1e995u);
   shadows_.ray.pixel[i] = paths_.ray.pixel[path];
   shadows_.ray.sample[i] = paths_.ray.sample[path];
   shadows_.ray.hero[i] = paths_.ray.hero[path];
@@ -396,7 +395,7 @@ void VolpathIntegrator::answer_requests(const ScatterJob& job, std::uint32_t cou
     const float density = AimFrom(aim_, p, phase_towards).density(s.ray.direction, phase);
     const float share = s.pdf > 0 ? light_density / (light_density + density) : 1;
     const Spectrum worth{{request.value[0], request.value[1], request.value[2]}};
-    send_shadow_ray(path, s.ray, (share * phase / table.chance[i]) * worth * s.value);
+    send_shadow_ray(path, depth, s.ray, (share * phase / table.chance[i]) * worth * s.value);
   }
 }
 

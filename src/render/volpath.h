@@ -68,7 +68,8 @@ class VolpathIntegrator {
   void reach_light(std::uint32_t path, const Spectrum& radiance, float light_density);
   void gather_at_surface(std::uint32_t path, const SurfaceHit& hit, const Spectrum& throughput);
   void answer_requests(const ScatterJob& job, std::uint32_t count);
-  void send_shadow_ray(std::uint32_t path, const Ray& ray, const Spectrum& value);
+  // From the event after `depth` others.
+  void send_shadow_ray(std::uint32_t path, std::uint32_t depth, const Ray& ray, const Spectrum& value);
   void make_room_for_shadow_rays(std::uint32_t more);
   void gather_shadow_rays();
   void finish_paths();

@@ -102,7 +102,7 @@ void VolpathIntegrator::gather_at_surface(std::uint32_t path, const SurfaceHit& 
   density = aim_at_surface(scene_, aim_, p, hit, ray.direction).density(s.ray.direction, density);
   const float light_density = all_lights_.chance[i] * s.pdf;
   const float share = s.pdf > 0 ? light_density / (light_density + density) : 1;
-  send_shadow_ray(path, started_at(leave_towards(p, hit, s.ray.direction), s.ray),
+  send_shadow_ray(path, paths_.depth[path], started_at(leave_towards(p, hit, s.ray.direction), s.ray),
                   (share / (all_lights_.chance[i] * rescale_mean(path))) * throughput * f * s.value);
 }
 

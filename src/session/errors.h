@@ -25,6 +25,10 @@ auto with_public_errors(Body&& body) {
     fail("not enough memory");
   } catch (const std::length_error&) {  // a container that would pass what memory can ever hold
     fail("not enough memory");
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& e) {  // a thread or a library that cannot start
+    fail(e.what());
   }
 }
 
