@@ -26,7 +26,9 @@ const char* const help_text =
                 the density
   tracking      the same events, where nothing but the collisions is searched for
   marching      look-ups with linear interpolation along straight rays
-  surface rays  single rays against 130,000 triangles)";
+  surface rays  single rays against 130,000 triangles
+
+  brume bench --size 128 --time 0.2)";
 
 struct Arguments {
   brume::BenchOptions options;

@@ -26,16 +26,20 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 // The option of `app` that `given` may have been meant to be, or "".
 std::string nearest_option(const CLI::App& app, const std::string& given) {
-  const std::string name = given.substr(0, given.find('='));
-  std::string nearest;
-  std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;
+  std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options())
-    for (const std::string& long_name : option->get_lnames())
-      if (const std::size_t distance = edit_distance(name, "--" + long_name); distance < least) {
-        least = distance;
-        nearest = "--" + long_name;
-      }
-  return nearest;
+    for (const std::string& long_name : option->get_lnames()) names.push_back("--" + long_name);
+  return nearest_name(given.substr(0, given.find('=')), names);
+}
+
+// What CLI11 says is for programmers; it begins with the option's name, or has it after the first colon.
+std::string plain(const CLI::ParseError& e) {
+  const std::string message = e.what();
+  const std::size_t colon = message.find(':');
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&e)) return message.substr(0, colon) + " needs a value";
+  if (dynamic_cast<const CLI::ConversionError*>(&e) && colon != std::string::npos)
+    return message.substr(colon + 2, message.find(" = ") - colon - 2) + " takes no value";
+  return message;
 }
 
 std::string unexpected(const CLI::App& app, const std::string& argument) {
@@ -45,6 +49,17 @@ std::string unexpected(const CLI::App& app, const std::string& argument) {
 }
 
 }  // namespace
+
+std::string nearest_name(const std::string& given, const std::vector<std::string>& names) {
+  std::string nearest;
+  std::size_t least = std::max<std::size_t>(2, given.size() / 3) + 1;
+  for (const std::string& name : names)
+    if (const std::size_t distance = edit_distance(given, name); distance < least) {
+      least = distance;
+      nearest = name;
+    }
+  return nearest;
+}
 
 CommandLine::CommandLine() : app_(std::make_unique<CLI::App>()) {
   app_->set_help_flag();  // help is ours
@@ -68,10 +83,14 @@ void CommandLine::parse(std::vector<std::string> arguments) {
   try {
     app_->parse(arguments);
   } catch (const CLI::ParseError& e) {
-    throw UsageError(e.what());
+    throw UsageError(plain(e));
   }
-  if (const std::vector<std::string> extras = app_->remaining(); !extras.empty())
-    throw UsageError(unexpected(*app_, extras.front()));
+  for (const CLI::Option* option : app_->get_options())
+    for (const std::string& value : option->results())
+      if (value.empty()) throw UsageError(option->get_name() + " needs a value");
+  std::vector<std::string> extras = app_->remaining();
+  std::erase(extras, "--");
+  if (!extras.empty()) throw UsageError(unexpected(*app_, extras.front()));
 }
 
 std::int64_t parse_number(const std::string& option, const std::string& text, std::int64_t lo, std::int64_t hi) {

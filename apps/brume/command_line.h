@@ -21,6 +21,9 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// The name that is nearest to `given` in edit distance, or "" where none is near.
+std::string nearest_name(const std::string& given, const std::vector<std::string>& names);
+
 // What a command takes, and where its values go. Names are as CLI11 has them: "-o,--output", or "FILE" for an argument
 // that is known by its place. CLI11 itself is included by command_line.cpp alone: it takes longer to compile than all
 // else in a command.
@@ -29,11 +32,12 @@ class CommandLine {
   CommandLine();
   ~CommandLine();
   void flag(const std::string& names, bool& value);
+  // A value that is given must not be empty.
   void option(const std::string& names, std::string& value);
   void option(const std::string& names, std::optional<std::string>& value);
   // May be repeated.
   void options(const std::string& names, std::vector<std::string>& values);
-  // Throws UsageError, which for an unknown option names the nearest valid one.
+  // Throws UsageError, which for an unknown option names the nearest valid one. What follows "--" is no option.
   void parse(std::vector<std::string> arguments);
 
  private:

@@ -29,7 +29,9 @@ const char* const help_text =
                   --variance writes it, two seeds and the sampler "independent".
 
 The errors are those of one of two renders with different seeds; where B has no noise, the
-error of A is twice that. Pixels that are not finite in all pictures are left out.)";
+error of A is twice that. Pixels that are not finite in all pictures are left out.
+
+  brume compare a.exr b.exr reference.exr)";
 
 struct Arguments {
   std::string a, b, reference;

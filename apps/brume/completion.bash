@@ -51,7 +51,7 @@ _brume() {
     --spp | --time | --seed | --nthreads | --resolution | --cropwindow | --pixelbounds | --exposure | --grid | --size | --sparse | --block | --step) return ;;
   esac
   if [[ $current == -* ]]; then
-    _brume_words "$(_brume_options "$program" ${command:+"$command"})"
+    _brume_words "$(_brume_options "$program" "${command:-render}")"
     return
   fi
   case $command in

@@ -23,6 +23,8 @@ int info_command(const std::vector<std::string>& arguments) {
     return 0;
   }
   if (file.empty()) throw UsageError("brume info needs the name of a file");
-  std::fputs(brume::describe_file(file).c_str(), stdout);
-  return 0;
+  const brume::FileDescription description = brume::describe_file(file);
+  std::fputs(description.lines.c_str(), stdout);
+  for (const std::string& fault : description.faults) std::fprintf(stderr, "%s\n", fault.c_str());
+  return description.faults.empty() ? 0 : 1;
 }

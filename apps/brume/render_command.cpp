@@ -20,13 +20,8 @@ namespace {
 constexpr int exit_interrupted = 130;  // what shells give for a program that SIGINT ended
 
 const char* const help_text =
-    R"(Usage: brume SCENE|VOLUME [options]   render a .pbrt, .vdb, .nvdb or .vol file
-       brume --example [options]       render the built-in example, a cloud
-       brume info FILE                 what a scene, a volume or a picture holds
-       brume make KIND -o FILE.vdb     make a cloud, smoke, fog or fire
-       brume phase [NAME]              list the phase functions, or show one
-       brume compare A B [REF]         how far two pictures are apart
-       brume bench                     how fast this machine is
+    R"(Usage: brume [render] SCENE|VOLUME [options]   a .pbrt, .vdb, .nvdb or .vol file
+       brume [render] --example [options]      the built-in example, a cloud
 
   -o, --output FILE      the picture: .png, .exr or .pfm; may be repeated.
                          Default: as the scene says; for a volume, VOLUME.png

@@ -75,8 +75,12 @@ class Scene {
   std::unique_ptr<Contents> contents_;
 };
 
-// What a file holds, as lines to be shown: a scene's entities, or a volume file's grids.
-std::string describe_file(const std::string& path);
+// What a file holds: a scene's entities, a volume file's grids, or what a picture says of itself.
+struct FileDescription {
+  std::string lines;                // to be shown
+  std::vector<std::string> faults;  // of grids that cannot be read, ready to be shown; they are in the lines too
+};
+FileDescription describe_file(const std::string& path);
 
 // The version, the instruction sets that this machine offers and the one in use. Throws Error where BRUME_ISA is set to
 // a name that is unknown or that the machine does not have.

@@ -80,7 +80,8 @@ std::string without_controls(std::string_view text) {
 std::string to_string(const Diagnostic& d) {
   std::string place = d.location.file;
   if (d.location.line > 0) place += fmt::format(":{}:{}", d.location.line, d.location.column);
-  std::string text = fmt::format("{}: {}: {}", place, d.severity == Severity::error ? "error" : "warning", d.message);
+  constexpr std::string_view names[] = {"note", "warning", "error"};
+  std::string text = fmt::format("{}: {}: {}", place, names[static_cast<std::size_t>(d.severity)], d.message);
   if (!d.source_line.empty()) {
     // Tabs before the caret are kept as tabs, so that it stands under its column.
     std::string indent;

@@ -16,7 +16,7 @@ struct Location {
   int column = 0;
 };
 
-enum class Severity { warning, error };
+enum class Severity { note, warning, error };
 
 struct Diagnostic {
   Severity severity = Severity::error;

@@ -1,5 +1,7 @@
 #include "scene/read_scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 
@@ -27,6 +29,11 @@ SceneDescription read_files(const std::vector<Reader::File>& files, std::vector<
     sort_by_place(errors);
     errors.resize(std::min(errors.size(), Messages::max_errors));
   }
+  if (errors.size() == Messages::max_errors)
+    errors.push_back({Severity::note,
+                      {files.front().name},
+                      fmt::format("there may be more than these {} errors", Messages::max_errors),
+                      {}});
   throw InputError(std::move(errors));
 }
 

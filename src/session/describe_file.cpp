@@ -94,12 +94,12 @@ std::string describe_scene(const std::string& path) {
 
 }  // namespace
 
-std::string describe_file(const std::string& path) {
-  return with_public_errors([&] {
+FileDescription describe_file(const std::string& path) {
+  return with_public_errors([&]() -> FileDescription {
     const std::string s = suffix(path);
     if (is_volume_file(path)) return describe_volume(path);
-    if (is_scene_file(path)) return describe_scene(path);
-    if (s == ".exr" || s == ".pfm") return describe_picture(path);
+    if (is_scene_file(path)) return {describe_scene(path), {}};
+    if (s == ".exr" || s == ".pfm") return {describe_picture(path), {}};
     throw InputError(path,
                      fmt::format("{}; known are scenes (.pbrt), volumes ({}) and pictures (.exr, .pfm)",
                                  s.empty() ? "no suffix" : fmt::format("unknown suffix \"{}\"", s), volume_suffixes));

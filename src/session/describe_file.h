@@ -3,9 +3,11 @@
 
 #include <string>
 
+#include "brume/scene.h"
+
 namespace brume {
 
-std::string describe_volume(const std::string& path);
+FileDescription describe_volume(const std::string& path);
 std::string describe_picture(const std::string& path);
 
 }  // namespace brume

@@ -47,8 +47,9 @@ std::string describe_densities(const VolumeGrid& grid) {
 
 }  // namespace
 
-std::string describe_volume(const std::string& path) {
+FileDescription describe_volume(const std::string& path) {
   const std::vector<GridInfo> grids = list_grids(path);
+  std::vector<std::string> faults;
   std::string lines = fmt::format("{}: {} grid{}\n", path, grids.size(), grids.size() == 1 ? "" : "s");
   for (std::size_t i = 0; i < grids.size(); ++i) {
     const GridInfo& grid = grids[i];
@@ -69,9 +70,10 @@ std::string describe_volume(const std::string& path) {
       lines += describe_densities(read_volume(path, i, Storage::u16));
     } catch (const InputError& e) {
       lines += fmt::format("    cannot be rendered: {}\n", e.diagnostics().front().message);
+      faults.emplace_back(e.what());
     }
   }
-  return lines;
+  return {lines, faults};
 }
 
 }  // namespace brume

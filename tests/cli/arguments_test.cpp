@@ -17,23 +17,37 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
 
+void expect_narrow(const std::string& text) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
+}
+
 TEST(Arguments, HelpFitsOnAScreen) {
   const TemporaryFolder folder;
   const Outcome outcome = run(folder.path(), {"--help"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.error, IsEmpty());
-  EXPECT_LE(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 40);
-  std::istringstream lines(outcome.out);
-  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
-  for (const char* word : {"--output",    "--spp",         "--time",        "--cropwindow", "--write-partial-images",
-                           "brume bench", "--seed",        "--nthreads",    "--resolution", "--integrator",
-                           "--grid",      "--write-scene", "--variance",    "--quiet",      "--version",
-                           "--example",   "brume info",    "brume compare", "brume make",   "brume phase",
-                           "BRUME_ISA",   ".pfm",          "--pixelbounds", "--quick",      "--exposure",
-                           "--stats ",    "--stats-json"})
-    EXPECT_THAT(outcome.out, HasSubstr(word));
-  EXPECT_EQ(run(folder.path(), {"render", "--help"}).out, outcome.out);
-  EXPECT_THAT(run(folder.path(), {"info", "--help"}).out, StartsWith("Usage: brume info FILE"));
+  EXPECT_LT(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 24);
+  expect_narrow(outcome.out);
+  for (const char* command : {"render", "info", "make", "phase", "compare", "bench"}) {
+    EXPECT_THAT(outcome.out, testing::ContainsRegex("brume \\[?" + std::string(command)));
+    const std::string own = run(folder.path(), {command, "--help"}).out;
+    EXPECT_THAT(own, testing::ContainsRegex("Usage: brume \\[?" + std::string(command)));
+    EXPECT_THAT(own, testing::ContainsRegex("\n  brume [a-z]")) << "no example";
+  }
+}
+
+TEST(Arguments, HelpOfRenderHasAllItsOptions) {
+  const TemporaryFolder folder;
+  const std::string help = run(folder.path(), {"render", "--help"}).out;
+  expect_narrow(help);
+  for (const char* word : {"--output",   "--spp",     "--time",        "--cropwindow",  "--write-partial-images",
+                           "--seed",     "--quiet",   "--nthreads",    "--resolution",  "--integrator",
+                           "--grid",     "--strict",  "--write-scene", "--variance",    "--version",
+                           "--example",  "BRUME_ISA", ".pfm",          "--pixelbounds", "--quick",
+                           "--exposure", "--stats ",  "--stats-json",  "--sanitize"})
+    EXPECT_THAT(help, HasSubstr(word));
+  EXPECT_EQ(run(folder.path(), {"a.pbrt", "--help"}).out, help);
 }
 
 TEST(Arguments, VersionNamesTheInstructionSets) {
@@ -65,7 +79,12 @@ TEST(Arguments, MistakesAreNamedAndNothingIsWritten) {
       {{"a.pbrt", "a.pbrt"}, "this WorldBegin is the second one"},
       {{"a.pbrt", "--sppp", "3"}, "unknown option --sppp, did you mean --spp?"},
       {{"a.pbrt", "--threads", "3"}, "did you mean --nthreads?"},
-      {{"a.pbrt", "--spp"}, "--spp"},
+      {{"a.pbrt", "--spp"}, "--spp needs a value"},
+      {{"a.pbrt", "--spp="}, "--spp needs a value"},
+      {{"a.pbrt", "--spp", ""}, "--spp needs a value"},
+      {{"a.pbrt", "--quiet=maybe"}, "--quiet takes no value"},
+      {{"rendr", "a.pbrt"}, "unknown command rendr, did you mean render?"},
+      {{"a.pbrt", "--", "-b.pbrt"}, "-b.pbrt: error: cannot be read: No such file"},
       {{"a.pbrt", "--spp", "0"}, "--spp: \"0\" is not a whole number from 1"},
       {{"a.pbrt", "--spp", "-5"}, "--spp: \"-5\""},
       {{"a.pbrt", "--spp", "4.5"}, "--spp: \"4.5\""},

@@ -68,6 +68,10 @@ TEST(Framing, BadValuesAreAnErrorUnlessSanitized) {
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.error, HasSubstr("the first -1 at voxel (4, 4, 1)"));
   EXPECT_THAT(outcome.error, HasSubstr("--sanitize"));
+  outcome = run(folder.path(), {"info", "a.vol"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("8 x 8 x 8 voxels"));
+  EXPECT_THAT(outcome.error, HasSubstr("a.vol: error: grid \"density\" cannot be rendered: 1 of its values"));
   std::vector<std::string> sanitized = render;
   for (const char* argument : {"--sanitize", "--write-scene", "a.pbrt"}) sanitized.emplace_back(argument);
   outcome = run(folder.path(), sanitized);

@@ -84,7 +84,7 @@ TEST(Fuzz, MutantsAreReadOrRefused) {
     } catch (const InputError& e) {
       ++refused;
       EXPECT_FALSE(e.diagnostics().empty());
-      EXPECT_LE(e.diagnostics().size(), 20u);
+      EXPECT_LE(e.diagnostics().size(), 21u);  // the last says that there may be more
       continue;
     }
     ++read;
