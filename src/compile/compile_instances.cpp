@@ -10,6 +10,17 @@
 
 namespace brume {
 
+namespace {
+
+// By the Frobenius norm, which is no less than the largest singular value.
+float largest_scale(const Transform& t) {
+  double squared = 0;
+  for (const auto& row : t.m) squared += row[0] * row[0] + row[1] * row[1] + row[2] * row[2];
+  return static_cast<float>(std::sqrt(squared));
+}
+
+}  // namespace
+
 void Compiler::add_shapes() {
   const auto add = [&](const std::vector<ShapeDescription>& shapes) {
     const std::size_t first = compiled_.shapes.size();
@@ -34,7 +45,8 @@ void Compiler::add_instances() {
       error(instance.location, fmt::format("there is no object \"{}\"", instance.object));
     else if (const CompiledObject& o = compiled_.objects[object->second]; o.shape_count > 0) {
       check_range(bounds(instance.world_from_object, object_bounds(o)), "the instance", instance.location);
-      compiled_.instances.push_back({object->second, instance.world_from_object, inverse(instance.world_from_object)});
+      compiled_.instances.push_back({object->second, instance.world_from_object, inverse(instance.world_from_object),
+                                     largest_scale(instance.world_from_object)});
     }
   }
 }

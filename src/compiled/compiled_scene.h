@@ -192,6 +192,7 @@ struct CompiledObject {
 struct CompiledInstance {
   std::uint32_t object = 0;
   Transform world_from_object, object_from_world;
+  float largest_scale = 1;  // lengths grow by no more
 };
 
 // The directions in which a point light shines, about a unit axis (kernel/cone.inl): all of them, where nothing else is

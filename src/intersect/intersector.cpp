@@ -203,8 +203,10 @@ struct Intersector::Embree {
     const CompiledMaterial* relief = relief_of(shape);
     vec3 normal, smooth(0, 0, 0);
     Tangents tangents;
+    hit.extent = rounding_extent(hit.position, hit.t);
     if (shape.kind == CompiledShape::Kind::mesh) {
       const CompiledMesh& mesh = scene.meshes[shape.index];
+      hit.extent = rounding_extent(hit.position, hit.t, longest_edge(rtc, mesh, instance));
       normal = vec3(rtc.Ng_x, rtc.Ng_y, rtc.Ng_z);
       if (mesh.flip_normal) normal = -normal;
       if (mesh.has_normals) smooth = triangle_normal(rtc, mesh);
@@ -252,6 +254,17 @@ struct Intersector::Embree {
 
   static vec3 to_world(const CompiledInstance& instance, vec3 n) {
     return to_float(normalize(transposed(instance.object_from_world, to_double(n))));
+  }
+
+  // Of the triangle in the world: in an instance, at most this.
+  float longest_edge(const RTCHit& rtc, const CompiledMesh& mesh, const CompiledInstance* instance) const {
+    const auto& [a, b, c] = scene.triangles[mesh.first_triangle + rtc.primID];
+    const auto at = [&, first = mesh.first_vertex](std::uint32_t corner) {
+      return to_vec3(scene.positions[first + corner]);
+    };
+    const vec3 u = at(b) - at(a), v = at(c) - at(a), w = v - u;
+    const float longest = std::sqrt(std::max({dot(u, u), dot(v, v), dot(w, w)}));
+    return instance ? longest * instance->largest_scale : longest;
   }
 
   // By the hit's weights of the corners; not normalised.

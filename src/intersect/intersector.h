@@ -1,7 +1,9 @@
 // Rays against surfaces: the only place that knows Embree. Built from CompiledScene's geometry.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -24,8 +26,17 @@ struct Ray {
   kernel::vec3 at(float t) const { return origin + t * direction; }
 };
 
+// What a place, its distance and the triangle that it is on have roundings in proportion to. Embree takes a triangle's
+// corners relative to the ray's origin, so that a plane of large triangles that pass near by is rough by as much as
+// their corners are far away: measured, 4e-7 of that. Of the coordinates and the distance we allow for 20 times as
+// much.
+inline float rounding_extent(kernel::vec3 place, float t, float triangle = 0) {
+  return std::max({std::abs(place.x), std::abs(place.y), std::abs(place.z), t, 0.2f * triangle});
+}
+
 struct SurfaceHit {
   float t = 0;
+  float extent = 0;  // see rounding_extent
   int shape = -1;
   kernel::vec3 position;
   // Unit length. The geometric normal points out of the shape (ReverseOrientation included); the shading normal is on

@@ -21,16 +21,13 @@ inline SurfaceHit facing(SurfaceHit hit, kernel::vec3 direction) {
   return hit;
 }
 
-// How far a ray starts from the surface that it leaves, against hitting it again: some tens of roundings of the hit's
-// coordinates and of its distance.
-inline kernel::vec3 leave_surface(kernel::vec3 p, kernel::vec3 n, float t) {
-  const float extent = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), t});
-  return p + (8e-6f * extent) * n;
-}
+// How far a ray starts from the surface that it leaves, against hitting it again: some tens of roundings (see
+// rounding_extent).
+inline kernel::vec3 leave_surface(kernel::vec3 p, kernel::vec3 n, float extent) { return p + (8e-6f * extent) * n; }
 
 // The same for a ray that goes on in this direction, from whichever side.
 inline kernel::vec3 leave_towards(kernel::vec3 p, const SurfaceHit& hit, kernel::vec3 direction) {
-  return leave_surface(p, dot(direction, hit.normal) < 0 ? -hit.normal : hit.normal, hit.t);
+  return leave_surface(p, dot(direction, hit.normal) < 0 ? -hit.normal : hit.normal, hit.extent);
 }
 
 inline float clamped_cosine(kernel::vec3 a, kernel::vec3 b) { return std::max(0.0f, dot(a, b)); }

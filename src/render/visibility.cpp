@@ -88,7 +88,7 @@ Spectrum Visibility::cross_glass(Ray ray) const {
     hit = facing(hit, ray.direction);
     left = left * straight_transmittance(*MaterialAt(scene_, hit), clamped_cosine(hit.shading_normal, -ray.direction));
     if (max_value(left) < negligible_transmittance || crossed == most_surfaces) return {};
-    ray = started_at(leave_surface(ray.at(hit.t), -hit.normal, hit.t), ray);
+    ray = started_at(leave_surface(ray.at(hit.t), -hit.normal, hit.extent), ray);
   }
   return left;
 }

@@ -7,6 +7,7 @@
 
 #include "intersect/intersector.h"
 #include "render/surface_cases.h"
+#include "render/surfaces.h"
 
 namespace brume {
 namespace {
@@ -64,6 +65,55 @@ TEST(Normals, PointOutOfClosedShapesAlsoInMirroringInstances) {
         EXPECT_GT(dot(to_double(hit.normal), d), 0);
       }
     }
+}
+
+// Rays that leave a plane do not meet it again, nor do shadow rays that end on it, however large it is and however it
+// lies, in the world and in an instance. The fault: starts that know nothing of the size of triangles.
+TEST(Planes, DoNotShadowThemselves) {
+  std::mt19937 random(3);
+  const auto number = [&] { return static_cast<double>(random() >> 8) * 0x1p-23 - 1; };
+  int met = 0, met_by_twin = 0, ends_met = 0;
+  for (const double half : {10.0, 1e2, 1e3, 1e4, 1e5})
+    for (const bool in_instance : {false, true})
+      for (int tilt = 0; tilt < 10; ++tilt) {
+        ShapeDescription plane = square_facing_y({0, 0, 0}, half, 0.5f);
+        SceneDescription s = needle_scene();
+        const Transform turned = rotate(180 * number(), {number(), number(), number()});
+        if (in_instance) {
+          plane.world_from_object = scale({0.01, 0.01, 0.01});
+          s.objects = {{"plane", {plane}}};
+          s.instances = {{"plane", turned * scale({100, 100, 100}), {}}};
+        } else {
+          plane.world_from_object = turned;
+          s.shapes = {plane};
+        }
+        const CompiledScene scene = compiled(s);
+        const Intersector intersector(scene);
+        const auto is_met = [&](const Ray& ray) {
+          std::uint8_t blocked = 0;
+          intersector.occluded({&ray, 1}, {&blocked, 1});
+          return blocked;
+        };
+        for (int i = 0; i < 100; ++i) {
+          // Near the middle, where the camera is and the corners are not.
+          const double near = std::min(0.5 * half, 10.0);
+          const Vector3 eye = turned.point({near * number(), 2 + number(), near * number()});
+          const Ray ray{to_float(eye), to_float(normalize(turned.vector({0.3 * number(), -1, 0.3 * number()})))};
+          SurfaceHit hit;
+          ASSERT_TRUE(intersector.nearest_surface(ray, hit));
+          hit = facing(hit, ray.direction);
+          const kernel::vec3 p = ray.at(hit.t);
+          const kernel::vec3 d = to_float(normalize(turned.vector({number(), 0.1 + std::abs(number()), number()})));
+          const kernel::vec3 start = leave_towards(p, hit, d);
+          met += is_met({start, d});
+          ends_met += is_met({start + 3.0f * d, -d, 3});
+          hit.extent = rounding_extent(p, hit.t);
+          met_by_twin += is_met({leave_towards(p, hit, d), d});
+        }
+      }
+  EXPECT_EQ(met, 0);
+  EXPECT_EQ(ends_met, 0);
+  EXPECT_GT(met_by_twin, 500);
 }
 
 // With normals at its corners a patch has them interpolated, on the side that the shading normal is on.
