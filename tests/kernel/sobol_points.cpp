@@ -104,18 +104,44 @@ double uniform_p_value(const std::vector<double>& counts, double total) {
   return chi_squared_p_value(chi_squared(counts, probabilities, total), static_cast<double>(counts.size() - 1));
 }
 
-// One point of each of many streams: over seeds, what a pixel gets has the density 1.
-TEST(SobolPoints, AreUniformOverSeeds) {
+// One point of each of many streams: over seeds, what a pixel gets has the density 1. Catches seeds of which a part
+// alone makes a difference, and points that are put in another order but not scrambled, whose last bits are 0.
+struct OverSeeds {
+  double square, low_bits;  // p-values
+};
+
+OverSeeds over_seeds(Source source, std::uint32_t index) {
   constexpr std::uint32_t seeds = 1u << 18;
+  std::vector<double> square(32 * 32), low_bits(256);
+  for (std::uint32_t seed = 0; seed < seeds; ++seed) {
+    const Point p = source({seed, 300, 200, 16, index, 2});
+    ++square[(p.x >> 27) * 32 + (p.y >> 27)];
+    ++low_bits[p.x >> 8 & 255];
+  }
+  return {uniform_p_value(square, seeds), uniform_p_value(low_bits, seeds)};
+}
+
+TEST(SobolPoints, AreUniformOverSeeds) {
   for (const std::uint32_t index : {0u, 5u}) {
-    std::vector<double> square(32 * 32), low_bits(256);
-    for (std::uint32_t seed = 0; seed < seeds; ++seed) {
-      const Point p = sobol({seed, 300, 200, 16, index, 2});
-      ++square[(p.x >> 27) * 32 + (p.y >> 27)];
-      ++low_bits[p.x >> 8 & 255];
-    }
-    EXPECT_GT(uniform_p_value(square, seeds), sidak(0.01, 4)) << index;
-    EXPECT_GT(uniform_p_value(low_bits, seeds), sidak(0.01, 4)) << index;
+    const OverSeeds p = over_seeds(sobol, index);
+    EXPECT_GT(p.square, sidak(0.01, 4)) << index;
+    EXPECT_GT(p.low_bits, sidak(0.01, 4)) << index;
+  }
+}
+
+Point of_half_a_seed(const Counters& c) { return sobol({c.seed & 0xffff, c.x, c.y, c.samples, c.index, c.pair}); }
+
+// The point of the sequence whose place is drawn anew for each seed.
+Point unscrambled(const Counters& c) {
+  const std::uint32_t place = independent(c).x % (4096 * c.samples);
+  return {kernel::reverse_bits(place), kernel::reverse_bits(kernel::sobol_second_reversed(place))};
+}
+
+TEST(SobolPointsTwin, HalfASeedAndUnscrambledPointsAreRejected) {
+  for (const std::uint32_t index : {0u, 5u}) {
+    EXPECT_LT(over_seeds(of_half_a_seed, index).square, 1e-6);
+    EXPECT_LT(over_seeds(of_half_a_seed, index).low_bits, 1e-6);
+    EXPECT_LT(over_seeds(unscrambled, index).low_bits, 1e-6);
   }
 }
 
