@@ -61,10 +61,14 @@ TEST_P(Lights, DiskGivesItsIrradiance) {
 }
 
 // A ring is a disk less another, and half of it gives half.
+// Catches points that are spread evenly over the radius and not over the area. The twin is the irradiance of those: the
+// area times the mean of 1 / (1 + r^2)^2 over the radii.
 TEST_P(Lights, HalfARingGivesItsIrradiance) {
   const double expected = 0.25 * (0.36 / (0.36 + 1) - 0.09 / (0.09 + 1));
-  expect_estimate(lit_square(GetParam(), {emitter(DiskShape{0.6, 0, 0.3, 180}, translate({0, 0, -1}))}), expected, 0,
-                  1e-3);
+  const SceneDescription ring = lit_square(GetParam(), {emitter(DiskShape{0.6, 0, 0.3, 180}, translate({0, 0, -1}))});
+  expect_estimate(ring, expected, 0, 1e-3);
+  const auto integral = [](double r) { return 0.5 * (r / (1 + r * r) + std::atan(r)); };
+  expect_rejected(ring, 0.25 * (0.36 - 0.09) * (integral(0.6) - integral(0.3)) / 0.3);
 }
 
 // E = pi L (R / d)^2, and by reciprocity the light's power says nothing else.
@@ -231,15 +235,28 @@ TEST_F(Images, LightAsTheirPixelsSay) {
   }
 }
 
+// Catches densities per solid angle that are not those of the pixels' directions. The twin takes the directions of an
+// equal-area image from the table of an equirectangular one, and the other way round.
 TEST_F(Images, OfOneColourAreTheConstantSky) {
-  for (const int width : {8, 16}) expect_estimate(scene("reference", write(width, 8, 0, 0.75f)), 0.375, 0, 1e-3);
+  for (const int width : {8, 16}) {
+    const SceneDescription s = scene("reference", write(width, 8, 0, 0.75f));
+    expect_estimate(s, 0.375, 0, 1e-3);
+    if (sanitized) continue;
+    CompiledScene faulty = compiled(s);
+    SphereMap& map = faulty.environments[0].map;
+    map = map == SphereMap::equal_area ? SphereMap::equirectangular : SphereMap::equal_area;
+    const Estimate e = estimate_compiled(std::move(faulty), 300);
+    EXPECT_GT(std::abs(e.mean - 0.375), 8 * e.standard_error) << width;
+  }
 }
 
-// Catches an image whose illuminance is that of another hemisphere, or of all directions: the lower half is black here.
-// pbrt's sum over pixels' centres is exact to a few thousandths.
+// Catches an image whose illuminance is that of another hemisphere or of all directions, or is a sum without the
+// cosine: the image is brightest about its top and not black below. The twins are what the last two would show. pbrt's
+// sum over pixels' centres is exact to a few thousandths.
 TEST_F(Images, AreScaledToTheirIlluminance) {
   Image image{64, 32, {}};
-  for (int i = 0; i < 3 * 64 * 32; ++i) image.pixels.push_back(i < 3 * 64 * 16 ? 0.3f : 0.0f);
+  for (const float band : {0.3f, 0.1f, 0.15f, 0.15f})  // of 45 degrees each
+    image.pixels.insert(image.pixels.end(), std::size_t{3} * 64 * 8, band);
   const std::string path = folder_.file("dome.pfm");
   write_image(path, image, {});
   SceneDescription s = scene("reference", path);
@@ -247,6 +264,10 @@ TEST_F(Images, AreScaledToTheirIlluminance) {
   light.world_from_light = rotate(180, {1, 0, 0});  // its +z is where the square faces
   light.illuminance = 5;
   expect_estimate(s, 0.5 * 5 / pi, 3e-3, 1e-3);
+  const double unit = pi * (0.5 * 0.3 + 0.5 * 0.1), of_all_directions = unit + pi * 0.15,
+               without_cosine = 2 * pi * (0.3 * (1 - std::sqrt(0.5)) + 0.1 * std::sqrt(0.5));
+  for (const double faulty : {of_all_directions, without_cosine})
+    expect_rejected(s, {{0.5 * 5 / pi * unit / faulty, 3e-3}}, 1e-3);
 }
 
 // pbrt's orientation: +z is the middle of an equal-area image and the top of an equirectangular one; +x is to the right
