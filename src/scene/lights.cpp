@@ -22,16 +22,7 @@ Spectrum read_colour(ParameterList& p, std::string_view name, std::string_view t
   double scale = p.number("scale", 1, Range::at_least(0));
   if (!total_name.empty())
     if (const double total = p.number(total_name, -1); total > 0) scale *= total / unit_total;
-  Spectrum product;
-  for (int c = 0; c < channel_count; ++c) {
-    const double v = scale * static_cast<double>(colour[c]);
-    if (v > max_float) {
-      p.error(p.place(), fmt::format("{} of {} times its scale is out of range", name, p.owner()));
-      return {};
-    }
-    product[c] = static_cast<float>(v);
-  }
-  return product;
+  return scaled(p, scale, colour, name);
 }
 
 // What an image is multiplied by, which takes the place of the colour L.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "kernel/phase_table.h"
 #include "scene/media.h"
@@ -11,19 +10,6 @@
 #include "scene/reader.h"
 
 namespace brume {
-
-Spectrum scaled(ParameterList& p, double factor, const Spectrum& colour, std::string_view what) {
-  Spectrum product;
-  for (int c = 0; c < channel_count; ++c) {
-    const double v = factor * static_cast<double>(colour[c]);
-    if (v > std::numeric_limits<float>::max()) {
-      p.error(p.place(), fmt::format("{} of {} times its scale is out of range", what, p.owner()));
-      return {};
-    }
-    product[c] = static_cast<float>(v);
-  }
-  return product;
-}
 
 std::vector<float> read_cells(ParameterList& p, std::string_view name, const std::array<int, 3>& resolution,
                               const CellRange& allowed, ParameterType type) {

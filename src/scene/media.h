@@ -11,9 +11,6 @@
 
 namespace brume {
 
-// The product of a factor and a colour, which must fit floats; `what` is its name in the error.
-Spectrum scaled(ParameterList& p, double factor, const Spectrum& colour, std::string_view what);
-
 // The values that cells may have, and whether others are taken as 0, with a warning, or are an error.
 struct CellRange {
   Range range;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "scene/colour.h"
 
@@ -264,6 +265,19 @@ void ParameterList::report_unused(const Parameter& p) {
       }
   }
   messages_.error(p.place, fmt::format("{} has no parameter {}{}", owner_, declaration(p), hint));
+}
+
+Spectrum scaled(ParameterList& p, double factor, const Spectrum& colour, std::string_view what) {
+  Spectrum product;
+  for (int c = 0; c < channel_count; ++c) {
+    const double v = factor * static_cast<double>(colour[c]);
+    if (v > std::numeric_limits<float>::max()) {
+      p.error(p.place(), fmt::format("{} of {} times its scale is out of range", what, p.owner()));
+      return {};
+    }
+    product[c] = static_cast<float>(v);
+  }
+  return product;
 }
 
 }  // namespace brume

@@ -137,6 +137,9 @@ class ParameterList {
   std::vector<Asked> asked_;
 };
 
+// The product of a factor and a colour, which must fit floats; `what` is its name in the error.
+Spectrum scaled(ParameterList& p, double factor, const Spectrum& colour, std::string_view what);
+
 // The parameters that follow in the stream, as written; faults are noted.
 std::vector<Parameter> read_parameters(TokenStream& tokens, Messages& messages);
 
