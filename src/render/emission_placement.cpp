@@ -1,5 +1,7 @@
 #include "render/emission_placement.h"
 
+#include "render/random_keys.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/emission_placement.cpp"
 #include <hwy/foreach_target.h>
@@ -86,7 +88,7 @@ void place_lanes(const EmissionJob& job, const PathColumns& paths, const TrackCo
     const I path = select(exists, as_int(load_lanes(stretches.ray + i)), I(0));
     const U key = load_lanes(stretches.key + i), pixel = load_lanes(stretches.pixel + i),
             sample = load_lanes(stretches.sample + i);
-    const RandomWords words = random_words(key, pixel, sample, U(0xfffffff2u));
+    const RandomWords words = random_words(key, pixel, sample, U(random_keys::place_of_emission));
     const B is_first = as_int(load_u32(paths.depth, path)) == I(0);
     const F u = select(is_first, gather(paths.points[placement_point], path), uniform_from_bits(words.x));
 
@@ -126,7 +128,7 @@ void place_lanes(const EmissionJob& job, const PathColumns& paths, const TrackCo
     append(t, packing, shadows.lead.t_max + at);
     append3(vec3(carried[0], carried[1], carried[2]), packing, shadows.value, at);
     append(uniform_from_bits(words.y), packing, shadows.lead.distance_u + at);
-    append(hash_word(key ^ U(0x3c6ef372u)), packing, shadows.lead.key + at);
+    append(hash_word(key ^ U(random_keys::back_from_emission)), packing, shadows.lead.key + at);
     append(pixel, packing, shadows.lead.pixel + at);
     append(sample, packing, shadows.lead.sample + at);
     append(load_lanes(stretches.hero + i), packing, shadows.lead.hero + at);

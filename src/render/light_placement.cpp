@@ -1,6 +1,7 @@
 #include "render/light_placement.h"
 
 #include "render/phase.h"
+#include "render/random_keys.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/light_placement.cpp"
@@ -87,7 +88,7 @@ void place(const ScatterJob& job, const PathColumns& paths, const TrackColumns& 
     const U depth = load_u32(paths.depth, path);
     const U key = load_lanes(stretches.key + i), pixel = load_lanes(stretches.pixel + i),
             sample = load_lanes(stretches.sample + i);
-    const RandomWords words = random_words(key, pixel, sample, U(0xfffffff0u));
+    const RandomWords words = random_words(key, pixel, sample, U(random_keys::place_of_light));
     const B is_first = as_int(depth) == I(0);
     const F u = select(is_first, gather(paths.points[placement_point], path), uniform_from_bits(words.x));
     const F pick = select(is_first, gather(paths.points[placement_point + 1], path), uniform_from_bits(words.y));
@@ -139,7 +140,7 @@ void place(const ScatterJob& job, const PathColumns& paths, const TrackColumns& 
       const BrickGrid grid = lanes_of(job.grid->density);
       const vec3 p_index = load3(stretches.entry, i) + t * load3(stretches.direction, i);
       const vec3 inside = select3(is_near, p_index, vec3(0.0f, 0.0f, 0.0f));
-      const RandomWords tap = random_words(key, pixel, sample, U(0xfffffff1u));
+      const RandomWords tap = random_words(key, pixel, sample, U(random_keys::density_at_place));
       density = grid_value(grid, job.grid->linear ? grid_stochastic_place(grid, inside, tap.x, tap.y)
                                                   : grid_nearest_place(grid, inside));
     }
@@ -168,8 +169,8 @@ void place(const ScatterJob& job, const PathColumns& paths, const TrackColumns& 
     append3(vec3(carried[0], carried[1], carried[2]), packing, shadows.value, at);
     append(uniform_from_bits(words.z), packing, shadows.ray.distance_u + at);
     append(uniform_from_bits(words.w), packing, shadows.lead.distance_u + at);
-    append(hash_word(key ^ U(0x2545f491u)), packing, shadows.ray.key + at);
-    append(hash_word(key ^ U(0x6c078965u)), packing, shadows.lead.key + at);
+    append(hash_word(key ^ U(random_keys::to_placed_light)), packing, shadows.ray.key + at);
+    append(hash_word(key ^ U(random_keys::back_from_light)), packing, shadows.lead.key + at);
     for (const RayColumns* rays : {&shadows.ray, &shadows.lead}) {
       append(pixel, packing, rays->pixel + at);
       append(sample, packing, rays->sample + at);

@@ -1,5 +1,7 @@
 #include "render/medium_tasks.h"
 
+#include "render/random_keys.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/medium_tasks.cpp"
 #include <hwy/foreach_target.h>
@@ -32,9 +34,11 @@ std::uint32_t clip_lanes(const VolumeFrame& volume, const RayColumns& rays, std:
     const auto add = [&](B there, vec3 entry, F t_begin, F length, std::uint32_t ordinal) {
       if (!any(there)) return;
       const Packing packing = packing_of(there);
-      const U key = hash_word((load_lanes(rays.key + i) ^ U(0x7f4a7c15u)) + U(ordinal * 0x9e3779b9u));
+      const U key =
+          hash_word((load_lanes(rays.key + i) ^ U(random_keys::stretch)) + U(ordinal * random_keys::stretch_step));
       const U pixel = load_lanes(rays.pixel + i), sample = load_lanes(rays.sample + i);
-      const F u = ordinal == 0 ? load_lanes(rays.distance_u + i) : random_uniform(key, pixel, sample, U(0xffffffffu));
+      const F u = ordinal == 0 ? load_lanes(rays.distance_u + i)
+                               : random_uniform(key, pixel, sample, U(random_keys::first_distance));
       append3(entry, packing, out.entry, at);
       append3(direction, packing, out.direction, at);
       append(length, packing, out.length + at);
@@ -147,11 +151,12 @@ void MediumTasks::add_bounded_media(const RayColumns& rays, std::uint32_t count)
       }
       c.length[at] = span.t_end - span.t_begin;
       c.t_begin[at] = span.t_begin;
-      c.key[at] = kernel::hash_word((rays.key[ray] ^ 0x7f4a7c15u) + ordinal * 0x9e3779b9u);
+      c.key[at] = kernel::hash_word((rays.key[ray] ^ random_keys::stretch) + ordinal * random_keys::stretch_step);
       c.pixel[at] = rays.pixel[ray];
       c.sample[at] = rays.sample[ray];
-      const float u = ordinal == 0 ? rays.distance_u[ray]
-                                   : kernel::random_uniform(c.key[at], c.pixel[at], c.sample[at], 0xffffffffu);
+      const float u = ordinal == 0
+                          ? rays.distance_u[ray]
+                          : kernel::random_uniform(c.key[at], c.pixel[at], c.sample[at], random_keys::first_distance);
       c.optical_depth[at] = -kernel::log_natural(1 - u);
       c.hero[at] = rays.hero[ray];
       c.ray[at] = ray;

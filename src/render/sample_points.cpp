@@ -1,5 +1,7 @@
 #include "render/sample_points.h"
 
+#include "render/random_keys.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/sample_points.cpp"
 #include <hwy/foreach_target.h>
@@ -19,8 +21,8 @@ void sample_point_lanes(std::uint32_t seed, std::uint32_t picture_width, bool is
       if (is_sobol) {
         sobol_pair(U(seed), x, y, U(samples_per_pixel), sample, U(static_cast<std::uint32_t>(pair)), first, second);
       } else {
-        const RandomWords words =
-            random_words(U(seed), y * U(picture_width) + x, sample, U(0x40000000u + static_cast<std::uint32_t>(pair)));
+        const RandomWords words = random_words(U(seed), y * U(picture_width) + x, sample,
+                                               U(random_keys::points + static_cast<std::uint32_t>(pair)));
         first = words.x;
         second = words.y;
       }

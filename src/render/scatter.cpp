@@ -1,6 +1,7 @@
 #include "render/scatter.h"
 
 #include "render/phase.h"
+#include "render/random_keys.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/scatter.cpp"
@@ -113,7 +114,7 @@ std::uint32_t scatter(const ScatterJob& job, const PathColumns& paths, std::uint
                       const ShadowColumns& shadows, std::uint32_t& shadow_count, LightRequest* requests) {
   const vec4 phase(job.phase_numbers[0], job.phase_numbers[1], job.phase_numbers[2], job.phase_numbers[3]);
   const F max_depth = static_cast<float>(job.max_depth), last_depth = static_cast<float>(job.last_depth);
-  const std::uint32_t hashed_seed = hash_seed(job.seed);
+  const std::uint32_t hashed_seed = random_keys::hash_seed(job.seed);
   const bool emits = job.emission[0] > 0 || job.emission[1] > 0 || job.emission[2] > 0;
   std::uint32_t request_count = 0;
   std::uint32_t at = shadow_count;
@@ -188,7 +189,7 @@ std::uint32_t scatter(const ScatterJob& job, const PathColumns& paths, std::uint
       append(F(0.0f), packing, shadows.lead.t_max + at);
       append(distance, packing, shadows.ray.t_max + at);
       const U key = load_lanes(paths.ray.key + i);
-      append(hash_word(key ^ U(0x5bd1e995u)), packing, shadows.ray.key + at);
+      append(hash_word(key ^ U(random_keys::to_light)), packing, shadows.ray.key + at);
       append(load_lanes(paths.ray.pixel + i), packing, shadows.ray.pixel + at);
       append(load_lanes(paths.ray.sample + i), packing, shadows.ray.sample + at);
       append(load_lanes(paths.ray.hero + i), packing, shadows.ray.hero + at);
@@ -234,7 +235,7 @@ std::uint32_t scatter(const ScatterJob& job, const PathColumns& paths, std::uint
     put(next.density * F(job.density_scale), here, paths.direction_density + i);
     put(select(survives, F(1e30f), F(0.0f)), here, paths.ray.t_max + i);
     put(depth + U(1u), here, paths.depth + i);
-    const U key = hash_word((depth + U(1u)) * U(0x9e3779b9u) ^ U(hashed_seed));
+    const U key = hash_word((depth + U(1u)) * U(random_keys::event_step) ^ U(hashed_seed));
     put(key, here, paths.ray.key + i);
     F distance_u = random_uniform(key, load_lanes(paths.ray.pixel + i), load_lanes(paths.ray.sample + i), U(3u));
     for (int e = 1; e < sobol_events; ++e)
@@ -270,10 +271,6 @@ HWY_EXPORT(scatter_lanes);
 std::uint32_t scatter_paths(const ScatterJob& job, const PathColumns& paths, std::uint32_t count,
                             const ShadowColumns& shadows, std::uint32_t& shadow_count, LightRequest* requests) {
   return HWY_DYNAMIC_DISPATCH(scatter_lanes)(job, paths, count, shadows, shadow_count, requests);
-}
-
-std::uint32_t event_key(std::uint32_t seed, std::uint32_t depth) {
-  return kernel::hash_word((depth * 0x9e3779b9u) ^ hash_seed(seed));
 }
 
 }  // namespace brume

@@ -47,11 +47,4 @@ struct ScatterJob {
 std::uint32_t scatter_paths(const ScatterJob& job, const PathColumns& paths, std::uint32_t count,
                             const ShadowColumns& shadows, std::uint32_t& shadow_count, LightRequest* requests);
 
-// Keys of events are apart from the seed itself, which is the key of the numbers of points, for every seed; 0 too,
-// which hash_word maps to itself.
-inline std::uint32_t hash_seed(std::uint32_t seed) { return kernel::hash_word(seed ^ 0x85ebca6bu); }
-
-// The key of an event's random numbers.
-std::uint32_t event_key(std::uint32_t seed, std::uint32_t depth);
-
 }  // namespace brume

@@ -245,7 +245,7 @@ void VolpathIntegrator::start_path(std::uint32_t path, std::uint32_t fresh, std:
   set(paths_.ray.origin, path, ray.origin);
   set(paths_.ray.direction, path, ray.direction);
   paths_.ray.t_max[path] = far_away;
-  paths_.ray.key[path] = event_key(scene_.seed, 0);
+  paths_.ray.key[path] = random_keys::event_key(scene_.seed, 0);
   paths_.ray.pixel[path] = y * static_cast<std::uint32_t>(scene_.width) + x;
   paths_.ray.sample[path] = sample;
   paths_.ray.hero[path] =
@@ -302,7 +302,8 @@ void VolpathIntegrator::end_flights() {
     float share = 1;  // of the path, that goes on
     if (passed > 0 && has_surface) {
       // Two paths would have to go on; one of them does.
-      if (kernel::random_uniform(paths_.ray.key[i], paths_.ray.pixel[i], paths_.ray.sample[i], 0x80000001u) < passed)
+      if (kernel::random_uniform(paths_.ray.key[i], paths_.ray.pixel[i], paths_.ray.sample[i],
+                                 random_keys::surface_is_reached) < passed)
         paths_.flight.medium[i] = no_medium;
     } else if (passed > 0) {
       see_environment(i, passed);
@@ -363,12 +364,12 @@ void VolpathIntegrator::send_shadow_ray(std::uint32_t path, std::uint32_t depth,
   set(shadows_.ray.origin, i, ray.origin);
   set(shadows_.ray.direction, i, ray.direction);
   shadows_.ray.t_max[i] = ray.t_max;
-  shadows_.ray.key[i] = kernel::hash_word(event_key(scene_.seed, depth) ^ 0x5bd1e995u);
+  shadows_.ray.key[i] = kernel::hash_word(random_keys::event_key(scene_.seed, depth) ^ random_keys::to_light);
   shadows_.ray.pixel[i] = paths_.ray.pixel[path];
   shadows_.ray.sample[i] = paths_.ray.sample[path];
   shadows_.ray.hero[i] = paths_.ray.hero[path];
-  shadows_.ray.distance_u[i] =
-      kernel::random_uniform(shadows_.ray.key[i], shadows_.ray.pixel[i], shadows_.ray.sample[i], 0x80000000u);
+  shadows_.ray.distance_u[i] = kernel::random_uniform(shadows_.ray.key[i], shadows_.ray.pixel[i],
+                                                      shadows_.ray.sample[i], random_keys::shadow_distance);
   shadows_.path[i] = path;
   set(shadows_.value, i, value);
 }
@@ -385,7 +386,7 @@ void VolpathIntegrator::answer_requests(const ScatterJob& job, std::uint32_t cou
     const std::uint32_t path = request.path, depth = paths_.depth[path] - 1;
     RandomStream random = random_of(path);
     random.skip_to(static_cast<std::uint32_t>(placement_point + 2) / 2, depth == 0 ? 1 : 0,
-                   hashed_numbers(depth) + 128);
+                   random_keys::light_choice(depth));
     const vec3 p(request.position[0], request.position[1], request.position[2]);
     const vec3 direction(request.direction[0], request.direction[1], request.direction[2]);
     const LightSample s = sample_light(scene_, scene_.lights[i], p, nullptr, random);

@@ -20,15 +20,13 @@
 #include "render/emission_placement.h"
 #include "render/light_table.h"
 #include "render/paths.h"
+#include "render/random_keys.h"
 #include "render/render_counts.h"
 #include "render/sample_points.h"
 #include "render/scatter.h"
 #include "render/surfaces.h"
 
 namespace brume {
-
-// Counters of random numbers, apart from those of tracking (from 0) and of points (0x40000000).
-inline std::uint32_t hashed_numbers(std::uint32_t depth) { return 0x20000000u + depth * 256; }
 
 // One to each worker.
 class VolpathIntegrator {

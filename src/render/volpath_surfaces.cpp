@@ -40,7 +40,7 @@ void VolpathIntegrator::meet_surface(std::uint32_t path) {
   RandomStream random = random_of(path);
   const bool has_points = depth < sobol_events;
   random.skip_to(has_points ? static_cast<std::uint32_t>(first_point_of_event[depth] + 4) / 2 : 0, has_points ? 1 : 0,
-                 hashed_numbers(depth));
+                 random_keys::surface_event(depth));
   const SurfaceSample next = scatter_at_surface(path, hit, random);
   Spectrum throughput = before * next.weight;
   const float worth = max_value(throughput) / rescale_mean(path), survival = std::min(1.0f, worth / 0.05f);
@@ -52,7 +52,7 @@ void VolpathIntegrator::meet_surface(std::uint32_t path) {
   paths_.ray.t_max[path] = far_away;
   paths_.direction_density[path] = next.pdf > 0 ? next.pdf : -1;
   paths_.depth[path] = depth + 1;
-  paths_.ray.key[path] = event_key(scene_.seed, depth + 1);
+  paths_.ray.key[path] = random_keys::event_key(scene_.seed, depth + 1);
   paths_.ray.distance_u[path] = depth + 1 < sobol_events ? paths_.points[first_point_of_event[depth + 1]][path]
                                                          : kernel::uniform_from_bits(random.next_bits());
 }
@@ -88,7 +88,8 @@ void VolpathIntegrator::gather_at_surface(std::uint32_t path, const SurfaceHit& 
   if (!scatters_widely(*MaterialAt(scene_, hit))) return;
   const std::uint32_t depth = paths_.depth[path];
   RandomStream random = random_of(path);
-  random.skip_to(static_cast<std::uint32_t>(placement_point + 2) / 2, depth == 0 ? 1 : 0, hashed_numbers(depth) + 128);
+  random.skip_to(static_cast<std::uint32_t>(placement_point + 2) / 2, depth == 0 ? 1 : 0,
+                 random_keys::light_choice(depth));
   const float u = depth < sobol_events ? paths_.points[first_point_of_event[depth] + 1][path]
                                        : kernel::uniform_from_bits(random.next_bits());
   const int picked = all_lights_.pick(u);

@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "compile/compile.h"
 #include "kernel/phase_table.h"
+#include "render/random_keys.h"
 
 namespace brume {
 
@@ -67,7 +68,7 @@ void FurnacePaths::start(std::uint32_t path) {
     paths_.radiance[i][path] = 0;
   }
   paths_.ray.t_max[path] = far_away;
-  paths_.ray.key[path] = event_key(0, 0);
+  paths_.ray.key[path] = random_keys::event_key(0, 0);
   paths_.ray.pixel[path] = number;
   paths_.ray.sample[path] = paths_.ray.hero[path] = 0;
   for (std::uint32_t i = 0; i < point_dimensions; ++i) paths_.points[i][path] = random(4 + i);
