@@ -38,10 +38,14 @@ class Warnings {
 };
 
 CompiledScene compile_scene(const SceneDescription& description, int threads, Warnings& warnings) {
-  const std::string& name = description.integrator.name;
-  if (name != "classic" && name != "reference" && name != "volpath")
-    warnings.add(fmt::format("warning: there is no integrator \"{}\" here; rendering with \"volpath\"", name));
   std::vector<Diagnostic> found;
+  const std::string& name = description.integrator.name;
+  const Location& location = description.integrator.location;
+  if (name != "classic" && name != "reference" && name != "volpath")
+    found.push_back({Severity::warning,
+                     location.line > 0 ? location : Location{description.file},
+                     fmt::format("there is no integrator \"{}\" here; rendering with \"volpath\"", name),
+                     {}});
   try {
     CompiledScene compiled = compile(description, threads, found);
     add_source_lines(found);
@@ -222,9 +226,9 @@ Picture render_contents(const Scene::Contents& contents, const RenderOptions& op
   backend->prepare(scene);
   if (const auto place = backend->open_boundary())
     warnings.add(
-        fmt::format("warning: near ({:.4g}, {:.4g}, {:.4g}) how much of a medium there is depends on where it is "
+        fmt::format("{}: warning: near ({:.4g}, {:.4g}, {:.4g}) how much of a medium there is depends on where it is "
                     "seen from; the shapes that bound it are not closed",
-                    place->x, place->y, place->z));
+                    description.file, place->x, place->y, place->z));
   const double prepared = watch.seconds();
   Film film(scene.crop.width(), scene.crop.height(), scene.film_response);
 

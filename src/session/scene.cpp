@@ -151,7 +151,10 @@ void Scene::apply(const SceneOptions& options) {
   scene.film = std::move(film);
   scene.sampler.pixel_samples = samples;
   if (options.seed) scene.sampler.seed = *options.seed;
-  if (options.integrator) scene.integrator.name = *options.integrator;
+  if (options.integrator) {
+    scene.integrator.name = *options.integrator;
+    scene.integrator.location = {};
+  }
   if (contents_->framing) scene.camera.fov = fov_for(*contents_->framing, scene.film.width, scene.film.height);
 }
 
