@@ -32,11 +32,18 @@ std::string nearest_option(const CLI::App& app, const std::string& given) {
   return nearest_name(given.substr(0, given.find('=')), names);
 }
 
+// Whether a word that CLI11 took for a value is an option of `app`.
+bool is_option(const CLI::App& app, const std::string& word) {
+  return word.size() > 1 && word[0] == '-' && app.get_option_no_throw(word) != nullptr;
+}
+
 // What CLI11 says is for programmers; it begins with the option's name, or has it after the first colon.
 std::string plain(const CLI::ParseError& e) {
   const std::string message = e.what();
   const std::size_t colon = message.find(':');
-  if (dynamic_cast<const CLI::ArgumentMismatch*>(&e)) return message.substr(0, colon) + " needs a value";
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&e))
+    return message.substr(0, colon) +
+           (message.find("received") == std::string::npos ? " needs a value" : " is given twice");
   if (dynamic_cast<const CLI::ConversionError*>(&e) && colon != std::string::npos)
     return message.substr(colon + 2, message.find(" = ") - colon - 2) + " takes no value";
   return message;
@@ -79,6 +86,9 @@ void CommandLine::options(const std::string& names, std::vector<std::string>& va
 }
 
 void CommandLine::parse(std::vector<std::string> arguments) {
+  for (const std::string& argument : arguments)
+    if (argument.starts_with("--") && argument.size() > 3 && argument.ends_with('='))
+      throw UsageError(argument.substr(0, argument.size() - 1) + " needs a value");
   std::reverse(arguments.begin(), arguments.end());  // the order in which CLI11 takes them
   try {
     app_->parse(arguments);
@@ -87,7 +97,7 @@ void CommandLine::parse(std::vector<std::string> arguments) {
   }
   for (const CLI::Option* option : app_->get_options())
     for (const std::string& value : option->results())
-      if (value.empty()) throw UsageError(option->get_name() + " needs a value");
+      if (value.empty() || is_option(*app_, value)) throw UsageError(option->get_name() + " needs a value");
   std::vector<std::string> extras = app_->remaining();
   std::erase(extras, "--");
   if (!extras.empty()) throw UsageError(unexpected(*app_, extras.front()));

@@ -51,7 +51,7 @@ std::string nearest_command(const std::string& word, const std::vector<std::stri
 
 int run(std::vector<std::string> arguments) {
   const std::string command = arguments.empty() ? "" : arguments.front();
-  if (command == "--help" || command == "-h") return std::puts(help_text), 0;
+  if (command == "--help" || command == "-h" || command == "help") return std::puts(help_text), 0;
   using Command = int (*)(const std::vector<std::string>&);
   const std::map<std::string, Command> commands = {{"bench", bench_command}, {"compare", compare_command},
                                                    {"info", info_command},   {"make", make_command},

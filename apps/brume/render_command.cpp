@@ -170,8 +170,8 @@ bool same_file(const std::string& a, const std::string& b) {
 }
 
 // What is written replaces what was there: nothing may be lost so that was read, or was written just before.
-void check_no_file_is_lost(const Arguments& a, std::vector<std::string> outputs,
-                           const std::vector<std::string>& inputs) {
+void check_no_file_is_lost(const Arguments& a, std::vector<std::string> outputs, std::vector<std::string> inputs) {
+  std::replace(inputs.begin(), inputs.end(), std::string("-"), std::string("/dev/stdin"));  // which may be a file
   for (const std::string& output : {a.write_scene, a.stats_json})
     if (!output.empty()) outputs.push_back(output);
   for (auto output = outputs.begin(); output != outputs.end(); ++output) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "compile/compiler.h"
 #include "compile/rgb_grids.h"
@@ -64,9 +65,15 @@ CompiledScene Compiler::run(std::vector<Diagnostic>& warnings) {
 }
 
 std::vector<Diagnostic> Compiler::file_errors() {
+  std::set<std::string> used = {scene_.camera.medium};
+  const auto use = [&](const std::vector<ShapeDescription>& shapes) {
+    for (const ShapeDescription& shape : shapes) used.insert({shape.inside, shape.outside});
+  };
+  use(scene_.shapes);
+  for (const ObjectDescription& object : scene_.objects) use(object.shapes);
   for (const MediumDescription& medium : scene_.media) {
     const auto* file = std::get_if<FileMedium>(&medium.kind);
-    if (!file || file->filename.empty()) continue;
+    if (!file || file->filename.empty() || !used.contains(medium.name)) continue;
     density_grid(medium);
     if (file->temperature_asked_for) temperature_grid(medium);
   }

@@ -155,11 +155,16 @@ template <class Load>
 Compiler::LoadedGrid Compiler::loaded_grid(const MediumDescription& medium, const GivenName& grid_name,
                                            const std::string& key, Load load) {
   if (const auto known = grids_.find(key); known != grids_.end()) return known->second;
+  const auto* file = std::get_if<FileMedium>(&medium.kind);
   LoadedGrid loaded{-1, {}};
   try {
     if (std::optional<VolumeGrid> grid = load()) {
       loaded = {static_cast<int>(compiled_.grids.size()), grid->medium_from_index};
-      if (!grid->warning.empty()) warnings_.push_back({Severity::warning, medium.location, grid->warning, {}});
+      if (file && !grid->warning.empty())
+        warnings_.push_back({Severity::warning,
+                             file->filename.location.line > 0 ? file->filename.location : Location{scene_.file},
+                             grid->warning,
+                             {}});
       const bool bordered =
           compiled_.integrator.kind == CompiledIntegrator::Kind::classic && medium.linear_interpolation;
       compiled_.grids.push_back(compile_grid(std::move(*grid), medium.linear_interpolation,
@@ -167,7 +172,6 @@ Compiler::LoadedGrid Compiler::loaded_grid(const MediumDescription& medium, cons
     }
     grids_.emplace(key, loaded);
   } catch (const InputError& e) {
-    const auto* file = std::get_if<FileMedium>(&medium.kind);
     const bool is_about_the_grid = dynamic_cast<const GridError*>(&e) && grid_name.location.line > 0;
     const Location& at = is_about_the_grid ? grid_name.location : file ? file->filename.location : medium.location;
     for (const Diagnostic& d : e.diagnostics())

@@ -62,7 +62,10 @@ std::string Reader::resolve(const std::string& filename) {
 
 GivenName Reader::file_name(ParameterList& p, std::string_view parameter) {
   const std::string name = p.string(parameter, "");
-  if (name.empty()) return {};
+  if (name.empty()) {
+    if (const Parameter* given = p.find(ParameterType::string, parameter)) p.value_error(*given, 0, "must name a file");
+    return {};
+  }
   return {resolve(name), location(p.place_of(ParameterType::string, parameter))};
 }
 

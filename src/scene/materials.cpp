@@ -191,7 +191,6 @@ Relief Reader::read_relief(ParameterList& p) {
   relief.displacement = displacement.texture;
   if (!p.has(ParameterType::string, "normalmap")) return relief;
   relief.normal_map = file_name(p, "normalmap");
-  if (relief.normal_map.empty()) p.value_error(*p.find(ParameterType::string, "normalmap"), 0, "must name an image");
   if (relief.displacement >= 0) {
     p.warning(p.place_of(ParameterType::texture, "displacement"),
               fmt::format("\"texture displacement\" of {} has no effect beside its normal map", p.owner()));
@@ -220,6 +219,7 @@ void Reader::material() {
 void Reader::make_named_material() {
   const Place place = tokens_.peek().place;
   const std::string name = string_argument("a name");
+  materials_tried_.insert(name);
   ParameterList p = parameters(fmt::format("MakeNamedMaterial \"{}\"", printable(name)), "material");
   p.require(ParameterType::string, "type");
   if (!p.has(ParameterType::string, "type")) throw Abandon{};
@@ -236,6 +236,7 @@ void Reader::named_material() {
     state_.material = found->second;
     return;
   }
+  if (materials_tried_.contains(name)) return;
   std::vector<std::string_view> names;
   for (const auto& [known, material] : named_materials_) names.push_back(known);
   messages_.fail(place, fmt::format("there is no material \"{}\" yet{}", printable(name), suggestion(name, names, {})));

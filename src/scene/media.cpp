@@ -210,6 +210,7 @@ CloudMedium read_cloud(ParameterList& p) {
 void Reader::make_named_medium() {
   const Place name_place = tokens_.peek().place;
   const std::string name = string_argument("a name");
+  media_tried_.insert(name);
   ParameterList p = parameters(fmt::format("MakeNamedMedium \"{}\"", printable(name)), "medium");
   if (name.empty()) messages_.error(name_place, "a medium's name must not be empty: \"\" stands for no medium");
   p.require(ParameterType::string, "type");
@@ -254,8 +255,8 @@ void Reader::make_named_medium() {
       is_new)
     scene_.media.push_back(std::move(medium));
   else
-    messages_.error(name_place, fmt::format("there is a medium \"{}\" already, from line {}", printable(name),
-                                            known->second.place.line));
+    messages_.error(name_place, fmt::format("there is a medium \"{}\" already, from {}:{}", printable(name),
+                                            known->second.place.source->name, known->second.place.line));
 }
 
 void Reader::medium_interface() {

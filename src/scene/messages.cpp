@@ -119,7 +119,12 @@ std::string enumerate(const std::vector<std::string>& words, std::string_view co
 }
 
 void Messages::error(const Place& place, const std::string& message) {
-  Entry entry{{Severity::error, location(place), message, {}}, place};
+  const auto is_same = [&](const Entry& e) {
+    return e.place.source == place.source && e.place.offset == place.offset && e.place.line == place.line &&
+           e.message == message;
+  };
+  if (std::any_of(errors_.begin(), errors_.end(), is_same)) return;
+  Entry entry{{Severity::error, location(place), message, {}}, place, message};
   if (place.source && place.line > 0) add_source_line(entry.diagnostic, place);
   errors_.push_back(std::move(entry));
   if (errors_.size() >= max_errors) throw TooManyErrors{};
@@ -132,7 +137,7 @@ void Messages::fail(const Place& place, const std::string& message) {
 
 void Messages::warning(const Place& place, const std::string& message) {
   if (warnings_.size() >= max_warnings || !warned_.insert(message).second) return;
-  Entry entry{{Severity::warning, location(place), message, {}}, place};
+  Entry entry{{Severity::warning, location(place), message, {}}, place, message};
   if (place.source && place.line > 0) add_source_line(entry.diagnostic, place);
   warnings_.push_back(std::move(entry));
 }

@@ -49,7 +49,7 @@ class Messages {
   // Strict: old spellings are errors.
   explicit Messages(bool strict = false) : strict_(strict) {}
 
-  // Throws TooManyErrors with the last one that is kept.
+  // Throws TooManyErrors with the last one that is kept. A message that the same place has already is not repeated.
   void error(const Place& place, const std::string& message);
   [[noreturn]] void fail(const Place& place, const std::string& message);
   // A message that was already given is not repeated.
@@ -67,6 +67,7 @@ class Messages {
   struct Entry {
     Diagnostic diagnostic;
     Place place;
+    std::string message;  // without the excerpt that the diagnostic's may have
   };
   static std::vector<Diagnostic> sorted(std::vector<Entry>& entries);
 

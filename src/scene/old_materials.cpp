@@ -64,10 +64,10 @@ const OldMaterial* find_old_material(std::string_view name) {
 }
 
 void translate(const OldMaterial& material, ParameterList& p) {
-  p.rename("Kd", "reflectance");
-  if (material.name == "mirror") p.rename("Kr", "reflectance");
-  // A mirror's colour stands for silver.
-  if (material.name != "mirror" || !has_reflectance(p)) p.add_defaults(material.defaults);
+  const bool is_mirror = material.name == "mirror";
+  p.rename(is_mirror ? "Kr" : "Kd", "reflectance");
+  // A mirror without a colour is of silver.
+  if (!is_mirror || !has_reflectance(p)) p.add_weaker_defaults(material.defaults);
   for (const std::string_view dropped : material.dropped)
     for (const ParameterType type : types_of_values) {
       const std::string declared = fmt::format("{} {}", type_name(type), dropped);

@@ -153,8 +153,8 @@ void Reader::integrator() {
   const bool is_direct_lighting = type == "directlighting";
   if (is_direct_lighting) {
     messages_.old_spelling(directive_.place,
-                           "Integrator \"directlighting\" is now \"path\" with \"integer maxdepth\" 1");
-    type = "path";
+                           "Integrator \"directlighting\" is now \"volpath\" with \"integer maxdepth\" 1");
+    type = "volpath";
   }
   const std::vector<std::string_view> types(std::begin(integrator_names), std::end(integrator_names));
   if (!contains(types, type)) unknown_type(argument_, "Integrator", type, types, {"function"});

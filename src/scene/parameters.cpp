@@ -69,6 +69,14 @@ void ParameterList::add_defaults(const std::vector<Parameter>& defaults) {
   }
 }
 
+void ParameterList::add_weaker_defaults(const std::vector<Parameter>& defaults) {
+  std::vector<Parameter> missing = defaults;
+  std::erase_if(missing, [&](const Parameter& d) {
+    return std::any_of(parameters_.begin(), parameters_.end(), [&](const Parameter& p) { return p.name == d.name; });
+  });
+  add_defaults(missing);
+}
+
 void ParameterList::rename(std::string_view old_name, std::string_view name) {
   for (Parameter& p : parameters_)
     if (p.name == old_name) {
@@ -144,7 +152,9 @@ std::size_t ParameterList::choice(std::string_view name, const std::vector<std::
   if (word != words.end()) return static_cast<std::size_t>(word - words.begin());
   std::vector<std::string> quoted;
   for (const std::string_view w : words) quoted.push_back(fmt::format("\"{}\"", w));
-  value_error(*p, 0, fmt::format("must be {}, found \"{}\"", enumerate(quoted, "or"), printable(p->strings[0])));
+  value_error(*p, 0,
+              fmt::format("must be {}, found \"{}\"{}", enumerate(quoted, "or"), printable(p->strings[0]),
+                          suggestion(p->strings[0], words, {})));
   return fallback;
 }
 
@@ -245,7 +255,9 @@ void ParameterList::report_unused(const Parameter& p) {
   std::vector<std::string> other_types, valid;
   std::vector<std::string_view> names;
   for (const Asked& a : asked_) {
-    if (a.name == p.name) other_types.push_back(declaration(a.type, a.name));
+    if (const std::string other = declaration(a.type, a.name);
+        a.name == p.name && std::find(other_types.begin(), other_types.end(), other) == other_types.end())
+      other_types.push_back(other);
     // A name that takes several types (a colour's) is listed once.
     if (std::find(names.begin(), names.end(), a.name) == names.end()) valid.push_back(declaration(a.type, a.name));
     names.push_back(a.name);

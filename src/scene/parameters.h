@@ -77,8 +77,10 @@ class ParameterList {
   const Place& place() const { return place_; }
   void set_owner(std::string owner) { owner_ = std::move(owner); }
 
-  // Adds those of `defaults` that are not given here.
+  // Adds those of `defaults` that are not given here, whatever their type.
   void add_defaults(const std::vector<Parameter>& defaults);
+  // Likewise, but not those that have a default already.
+  void add_weaker_defaults(const std::vector<Parameter>& defaults);
   // An old spelling: renames `old_name`, with a warning, where it is there.
   void rename(std::string_view old_name, std::string_view name);
 

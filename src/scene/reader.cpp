@@ -260,7 +260,7 @@ void Reader::check_media_names() {
   std::vector<std::string_view> names;
   for (const auto& [name, medium] : media_by_name_) names.push_back(name);
   for (const auto& [name, place] : medium_uses_)
-    if (!name.empty() && !media_by_name_.contains(name))
+    if (!name.empty() && !media_tried_.contains(name))
       messages_.error(place, fmt::format("there is no medium \"{}\"{}", printable(name), suggestion(name, names, {})));
   if (messages_.any_error()) return;  // the one that was to use it may be it
   for (const auto& [name, medium] : media_by_name_)

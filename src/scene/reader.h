@@ -206,6 +206,8 @@ class Reader {
   };
   std::map<std::string, NamedMedium, std::less<>> media_by_name_;
   std::map<std::string, Place> medium_uses_;  // the first of each name
+  // Names of things that were to be made; where there is none, an error was noted.
+  std::set<std::string> media_tried_, materials_tried_, textures_tried_;
   struct VolumeUse {
     std::string inside;
     Transform ctm;

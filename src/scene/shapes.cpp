@@ -146,10 +146,11 @@ BilinearMeshShape read_bilinear_mesh(ParameterList& p) {
 TriangleMeshShape Reader::ply_mesh(ParameterList& p) {
   p.require(ParameterType::string, "filename");
   const std::string name = p.string("filename", "");
-  if (name.empty()) return {};
+  const GivenName file = file_name(p, "filename");
+  if (file.empty()) return {};
   const Place place = p.place_of(ParameterType::string, "filename");
   try {
-    PlyMesh ply = read_ply(resolve(name));
+    PlyMesh ply = read_ply(file);
     if (ply.skipped_faces > 0)
       messages_.warning(place, fmt::format("\"{}\" has {} faces with neither three nor four corners; they are left out",
                                            printable(name), ply.skipped_faces));
@@ -163,10 +164,11 @@ TriangleMeshShape Reader::ply_mesh(ParameterList& p) {
 TriangleMeshShape Reader::obj_mesh(ParameterList& p) {
   p.require(ParameterType::string, "filename");
   const std::string name = p.string("filename", "");
-  if (name.empty()) return {};
+  const GivenName file = file_name(p, "filename");
+  if (file.empty()) return {};
   const Place place = p.place_of(ParameterType::string, "filename");
   try {
-    ObjMesh obj = read_obj(resolve(name));
+    ObjMesh obj = read_obj(file);
     const auto warn = [&](bool is_so, const std::string& what) {
       if (is_so) messages_.warning(place, fmt::format("\"{}\" {}", printable(name), what));
     };

@@ -98,6 +98,7 @@ void Reader::use_texture(ParameterList& p, std::string_view name, bool is_float,
     value.texture = found->second;
     return;
   }
+  if (textures_tried_.contains(texture)) return;
   std::vector<std::string_view> names;
   for (const auto& [other, index] : known) names.push_back(other);
   p.value_error(*given, 0,
@@ -121,7 +122,8 @@ void Reader::texture() {
                    fmt::format("a texture is of \"float\" or \"spectrum\", found \"{}\"", printable(values)));
   const std::string type = string_argument("a type");
   const std::vector<std::string_view> types = {"constant", "scale", "mix", "checkerboard", "imagemap"};
-  if (std::find(types.begin(), types.end(), type) == types.end())
+  if (std::find(types.begin(), types.end(), type) == types.end()) textures_tried_.insert(name);
+  if (textures_tried_.contains(name))
     unknown_type(argument_, "Texture", type, types,
                  {"directionmix", "bilerp", "dots", "fbm", "wrinkled", "windy", "marble", "ptex"});
   ParameterList p = parameters(fmt::format("Texture \"{}\"", type), "texture");

@@ -286,6 +286,15 @@ TEST_F(Outputs, NoInputIsReplaced) {
   EXPECT_THAT(folder_.names(), ElementsAre("a.pbrt", "link.pbrt"));
 }
 
+// Redirected, the standard input is a file that is read.
+TEST_F(Outputs, AStandardInputThatIsAFileIsNotReplaced) {
+  const std::string scene = bytes("a.pbrt");
+  const int status = std::system(
+      ("cd '" + folder_.path() + "' && '" BRUME_PROGRAM "' - --write-scene a.pbrt < a.pbrt" + " 2> /dev/null").c_str());
+  EXPECT_NE(status, 0);
+  EXPECT_EQ(bytes("a.pbrt"), scene);
+}
+
 // What a scene includes or names: text, a mesh, a volume, a picture. The last case is the picture that it names for
 // output.
 TEST_F(Outputs, NoInputThatTheSceneNamesIsReplaced) {

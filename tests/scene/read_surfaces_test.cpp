@@ -36,6 +36,19 @@ TEST(ReadMaterials, OldOnesAreReadAsThoseOfToday) {
   EXPECT_EQ(std::get<DielectricMaterial>(material_of("\"glass\" \"float index\" 1.3")).eta, 1.3f);
 }
 
+// What an Attribute gives is stronger than an old material's own defaults, and of any type.
+TEST(ReadMaterials, OldOnesTakeWhatAnAttributeGives) {
+  const auto plastic = [](const std::string& attribute) {
+    const SceneDescription s =
+        world_of("Attribute \"material\" " + attribute + "\nMaterial \"plastic\"\nShape \"sphere\"");
+    return std::get<CoatedDiffuseMaterial>(s.shapes.at(0).material);
+  };
+  EXPECT_EQ(plastic("\"rgb Kd\" [0 1 0]").reflectance.value, (Spectrum{{0, 1, 0}}));
+  EXPECT_EQ(plastic("\"rgb reflectance\" [0 1 0]").reflectance.value, (Spectrum{{0, 1, 0}}));
+  EXPECT_FLOAT_EQ(plastic("\"float roughness\" 0.04").alpha, 0.2f);
+  EXPECT_NEAR(plastic("\"spectrum Kd\" [200 0.5 900 0.5]").reflectance.value[1], 0.5f, 1e-3);
+}
+
 TEST(ReadMaterials, ConductorsByNameByNumbersAndByReflectance) {
   const auto gold = std::get<ConductorMaterial>(
       material_of("\"conductor\" \"spectrum eta\" \"metal-Au-eta\" \"spectrum k\" \"metal-Au-k\""));
