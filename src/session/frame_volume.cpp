@@ -148,6 +148,7 @@ FramedVolume frame_volume(const std::string& path, const std::string& grid_name,
 
   FramedVolume framed;
   SceneDescription& scene = framed.scene;
+  scene.file = path;
   const View view = aim(grid.medium_from_index, boxes, whole, framed.framing);
   choose_size(framed.framing, scene.film);
   scene.film.filename = std::filesystem::path(path).stem().string() + ".png";
