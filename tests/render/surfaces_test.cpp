@@ -57,6 +57,8 @@ TEST(Fresnel, AConductorThatAbsorbsNothingIsADielectric) {
   EXPECT_NEAR(fresnel_conductor(0.3f, 0.2f, 3.9f), 0.5 * (s + p), 2e-6);
 }
 
+// The count catches rays that are let through as often as Fresnel says of light polarised across the plane of the rays,
+// or as Schlick's approximation of it says. The twins are these.
 TEST(Surfaces, RefractionObeysSnell) {
   CompiledScene scene;
   scene.width = scene.height = 1;
@@ -68,8 +70,9 @@ TEST(Surfaces, RefractionObeysSnell) {
   SurfaceHit hit;
   hit.shape = 0;
   hit.normal = hit.shading_normal = {0, 0, 1};
+  constexpr int n = 1000000;
   int transmitted = 0;
-  for (int i = 0; i < 10000; ++i) {
+  for (int i = 0; i < n; ++i) {
     RandomStream random(scene, 0, 0, i);
     const SurfaceSample s = sample_surface(scene, hit, {0.6f, 0, -0.8f}, random);
     EXPECT_EQ(s.pdf, 0);
@@ -82,8 +85,13 @@ TEST(Surfaces, RefractionObeysSnell) {
     EXPECT_LT(s.direction.z, 0);
     EXPECT_NEAR(s.weight[0], 1 / 2.25f, 1e-6f);
   }
-  const double share = 1 - static_cast<double>(dielectric(0.8f, 1.5f));
-  EXPECT_NEAR(transmitted, 1e4 * share, 4 * std::sqrt(1e4 * share * (1 - share)));
+  const auto errors_out = [&](double reflectance) {
+    return std::abs(transmitted - n * (1 - reflectance)) / std::sqrt(n * reflectance * (1 - reflectance));
+  };
+  EXPECT_LE(errors_out(static_cast<double>(dielectric(0.8f, 1.5f))), 4);
+  const double inside = std::sqrt(1 - 0.4 * 0.4), across = std::pow((0.8 - 1.5 * inside) / (0.8 + 1.5 * inside), 2);
+  EXPECT_GT(errors_out(across), 8);
+  EXPECT_GT(errors_out(0.04 + 0.96 * std::pow(1 - 0.8, 5)), 8);
 }
 
 class Furnace : public ::testing::TestWithParam<const char*> {};
@@ -101,23 +109,28 @@ SceneDescription furnace(const char* integrator, const MaterialDescription& mate
 }
 
 // A ball above white ground under a white sky: nothing is to be seen.
+// Catches light that is lost or made where paths meet glass, reflected and refracted shares that do not sum to 1. Those
+// of the twin sum to 0.99.
 TEST_P(Furnace, GlassMakesAndLosesNoLight) {
   expect_estimate(furnace(GetParam(), DielectricMaterial{1.5f}), 1, 0, 1e-3);
-  SceneDescription grey = furnace(GetParam(), DielectricMaterial{1.5f});
-  std::get<DiffuseMaterial>(grey.shapes[1].material).reflectance = constant_spectrum(0.9f);
-  expect_rejected(grey, 1);
+  BlinnPhongMaterial glass{{}, {}, {}, 1};
+  glass.refraction = constant_spectrum(0.99f);
+  expect_rejected(furnace(GetParam(), glass), 1);
 }
 
-// k = 200 reflects 0.9999 and more; k = 3 about 0.7.
+// k = 200 reflects 0.9999 and more.
+// Catches a k that is not squared: that of the twin is its root.
 TEST_P(Furnace, APerfectConductorLosesNoLight) {
   const auto metal = [](float k) { return ConductorMaterial{constant_spectrum(1), constant_spectrum(k)}; };
   expect_estimate(furnace(GetParam(), metal(200)), 1, 1e-4, 1e-3);
-  expect_rejected(furnace(GetParam(), metal(3)), 1);
+  expect_rejected(furnace(GetParam(), metal(std::sqrt(200.0f))), {{1, 1e-4}}, 1e-3);
 }
 
 // A facing square under a white sky shows all that it sends back: a highlight takes no more than its colour, for every
 // shininess, and a metal's is tinted by the diffuse colour.
-// Catches a highlight with another factor, and a sampler whose density is not the one that it is said to have.
+// Catches a highlight with another factor, and a sampler whose density is not the one that it is said to have: the
+// twins' highlight is 4 % too bright. Of metals it catches a highlight that is tinted wholly or not at all, and a
+// diffuse part that is less for them, as other shading models have it. The twins are what these would give.
 TEST_P(Furnace, BlinnPhongSendsBackItsColours) {
   const auto square = [&](float specular, float shininess, float metallic) {
     SceneDescription s = needle_scene({0, 0, -1});
@@ -133,10 +146,14 @@ TEST_P(Furnace, BlinnPhongSendsBackItsColours) {
     expect_estimate(square(0.5f, shininess, 0), 0.85, 1e-5, 1e-3);
     expect_rejected(square(0.52f, shininess, 0), 0.85);
   }
-  expect_estimate(square(0.6f, 32, 0.5f), 0.25 + 0.6 * 0.625 + 0.1, 1e-5, 1e-3);
+  const SceneDescription metal = square(0.6f, 32, 0.5f);
+  expect_estimate(metal, 0.25 + 0.6 * 0.625 + 0.1, 1e-5, 1e-3);
+  for (const double faulty : {0.25 + 0.6 * 0.25 + 0.1, 0.25 + 0.6 + 0.1, 0.5 * 0.25 + 0.6 * 0.625 + 0.1})
+    expect_rejected(metal, {{faulty, 1e-5}}, 1e-3);
 }
 
-// Catches a mirror or glass that is taken with another chance than it is weighed with.
+// Catches a mirror or glass that is taken with another chance than it is weighed with: the twin's glass with 7 / 6 of
+// it.
 TEST_P(Furnace, GlassUnderAMirrorMakesAndLosesNoLight) {
   BlinnPhongMaterial m{{}, {}, constant_spectrum(0.3f), 1};
   m.refraction = constant_spectrum(0.7f);
@@ -146,13 +163,17 @@ TEST_P(Furnace, GlassUnderAMirrorMakesAndLosesNoLight) {
 }
 
 // Light that the coat lets through goes to and fro between base and coat until it leaves.
+// Catches light of which a part is lost on that way. The base of the twin has the reflectance with which light that
+// goes to and fro is what a white base sends back where it does not: rho / (1 - rho R_i) = 1.
 TEST_P(Furnace, ACoatOverWhiteMakesAndLosesNoLight) {
   expect_estimate(furnace(GetParam(), CoatedDiffuseMaterial{constant_spectrum(1), 1.5f}), 1, 2e-6, 1e-3);
-  expect_rejected(furnace(GetParam(), CoatedDiffuseMaterial{constant_spectrum(0.97f), 1.5f}), 1);
+  const float once = 1 / (1 + static_cast<float>(diffuse_reflectance(1 / 1.5f)));
+  expect_rejected(furnace(GetParam(), CoatedDiffuseMaterial{constant_spectrum(once), 1.5f}), {{1, 2e-6}}, 1e-3);
 }
 
 // Seen at 60 degrees: F + (1 - F) rho (1 - R_i) / (1 - rho R_i), with the reflectance from within as the test of
 // Fresnel's equations has it.
+// Catches light that does not go to and fro between base and coat, as in the twin.
 TEST_P(Furnace, ACoatedSurfaceSendsBackItsAlbedo) {
   SceneDescription s = needle_scene();
   s.integrator.name = GetParam();
@@ -172,6 +193,7 @@ TEST_P(Furnace, ACoatedSurfaceSendsBackItsAlbedo) {
   expect_estimate(s, expected, 1e-5, 1e-3);
 }
 
+// Catches weights of lamps' samples and of paths that do not sum to 1: a tenth of the twin's lamp counts twice.
 TEST_P(Furnace, AHighlightIsFoundByLampsAndByPathsAlike) {
   SceneDescription s = needle_scene({0, 0, -0.5});
   s.integrator.name = GetParam();
@@ -206,7 +228,7 @@ double rough_metal_albedo(double mu, double alpha, double k) {
 }
 
 // Catches facets that hide too many others or too few, a density that is not the sampler's, and lamps and paths that
-// are weighed wrongly against each other.
+// are weighed wrongly against each other. The twin is what facets a tenth rougher would give.
 TEST_P(Furnace, ARoughMetalSendsBackItsAlbedo) {
   SceneDescription s = needle_scene();
   s.integrator.name = GetParam();
@@ -260,7 +282,7 @@ double rough_glass_albedo(double mu, double alpha, double eta) {
 
 // Seen from outside and from within, where facets reflect totally. Lamps as bright as the sky stand before it and
 // behind. Catches facets that refract into other directions than they are said to, a density that is not the sampler's,
-// and shadow rays that do not find what lies behind.
+// and shadow rays that do not find what lies behind. The twins are what facets an eighth rougher would give.
 TEST_P(Furnace, RoughGlassSendsBackAndLetsThroughItsShare) {
   for (const std::string integrator : {GetParam(), "classic"})
     for (const bool from_within : {false, true}) {
@@ -299,10 +321,11 @@ TEST_P(Furnace, HardlyRoughGlassIsTheSmoothOne) {
 }
 
 // The base gets what the facets of the coat do not reflect. The table of that is exact to 2e-4.
+// Catches light that is lost between base and coat: the twin's base loses 3 % of it each time.
 TEST_P(Furnace, ARoughCoatOverWhiteMakesAndLosesNoLight) {
   for (const float alpha : {0.1f, 0.6f})
     expect_estimate(furnace(GetParam(), CoatedDiffuseMaterial{constant_spectrum(1), 1.5f, alpha}), 1, 2e-4, 1e-3);
-  expect_rejected(furnace(GetParam(), CoatedDiffuseMaterial{constant_spectrum(0.97f), 1.5f, 0.6f}), 1);
+  expect_rejected(furnace(GetParam(), CoatedDiffuseMaterial{constant_spectrum(0.97f), 1.5f, 0.6f}), {{1, 2e-4}}, 1e-3);
 }
 
 // Facets with next to no spread are the mirror: to 5e-4, what they change and the table's error. The ground would but
@@ -328,6 +351,8 @@ TEST_P(Furnace, AHardlyRoughCoatIsTheSmoothOne) {
 
 // A ball of glass that absorbs, seen through its middle: what is reflected to and fro along the axis adds up to R + (1
 // - R)^2 a / (1 - R a).
+// Catches light that the glass absorbs on its first way through alone, or in one channel as in another. The twins are
+// what these would give.
 TEST_P(Furnace, GlassAbsorbsAlongTheWay) {
   SceneDescription s = needle_scene({0, 0, -5});
   s.integrator.name = GetParam();
@@ -344,9 +369,12 @@ TEST_P(Furnace, GlassAbsorbsAlongTheWay) {
     expected.push_back({0.04 + 0.96 * 0.96 * a / (1 - 0.04 * a), 1e-5});
   }
   expect_estimates(s, expected, 2e-3);
-  m.absorption = Spectrum{{0.1f, 0.35f, 0.8f}};
-  s.shapes[0].material = m;
-  expect_rejected(s, expected, 2e-3);
+  std::vector<Expected> first_way = expected, one_channel(channel_count, expected[0]);
+  for (int c = 0; c < channel_count; ++c)
+    first_way[static_cast<std::size_t>(c)].value =
+        0.04 + 0.96 * std::exp(-2 * static_cast<double>(m.absorption[c]));  // (1 - R)^2 a / (1 - R)
+  expect_rejected(s, first_way, 2e-3);
+  expect_rejected(s, one_channel, 2e-3);
 }
 
 // f is the same with light and viewer exchanged.
