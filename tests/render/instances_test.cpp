@@ -69,16 +69,19 @@ int differences(const SceneDescription& a, const SceneDescription& b) {
   return count;
 }
 
-// Of 6912 values; at edges rounding may decide. Catches what is in the wrong place or is seen from the wrong side, and
-// media that do not begin or end in instances. The twin has one of the instances a little off its place.
+// Catches what is in the wrong place or is seen from the wrong side, and media that do not begin or end in instances.
+// One of the twins has an instance a little off its place, the other one balls without their smoke. Of the 2304 rays,
+// hardly one passes so near to an edge, a few millionths, that rounding decides there: two may, with three values each.
+// The twins, in which 450 and 841 values were found to differ, must have ten times as many.
 TEST(Instances, LookAsTheirShapesWouldInTheWorld) {
-  EXPECT_LT(differences(with_instances(), flattened()), 60);
+  constexpr int most = 2 * 3;
+  EXPECT_LE(differences(with_instances(), flattened()), most);
   SceneDescription moved = with_instances();
   moved.instances[1].world_from_object = translate({0.05, 0, 0}) * moved.instances[1].world_from_object;
-  EXPECT_GT(differences(moved, flattened()), 400);
+  EXPECT_GT(differences(moved, flattened()), 10 * most);
   SceneDescription empty = with_instances();
   empty.objects[0].shapes[1].inside = "";
-  EXPECT_GT(differences(empty, flattened()), 400);
+  EXPECT_GT(differences(empty, flattened()), 10 * most);
 }
 
 // Where an instance of glass displaces the fog around it, the fog is not taken for a box that nothing cuts into.
