@@ -29,11 +29,12 @@ SceneDescription read_files(const std::vector<Reader::File>& files, std::vector<
     sort_by_place(errors);
     errors.resize(std::min(errors.size(), Messages::max_errors));
   }
-  if (errors.size() == Messages::max_errors)
-    errors.push_back({Severity::note,
-                      {files.front().name},
-                      fmt::format("there may be more than these {} errors", Messages::max_errors),
-                      {}});
+  if (errors.size() == Messages::max_errors) {
+    Diagnostic& note = errors.emplace_back();
+    note.severity = Severity::note;
+    note.location.file = files.front().name;
+    note.message = fmt::format("there may be more than these {} errors", Messages::max_errors);
+  }
   throw InputError(std::move(errors));
 }
 
