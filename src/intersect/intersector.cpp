@@ -206,7 +206,7 @@ struct Intersector::Embree {
     hit.extent = rounding_extent(hit.position, hit.t);
     if (shape.kind == CompiledShape::Kind::mesh) {
       const CompiledMesh& mesh = scene.meshes[shape.index];
-      hit.extent = rounding_extent(hit.position, hit.t, longest_edge(rtc, mesh, instance));
+      hit.extent = rounding_extent(hit.position, hit.t, tilted_extent(rtc, mesh, instance));
       normal = vec3(rtc.Ng_x, rtc.Ng_y, rtc.Ng_z);
       if (mesh.flip_normal) normal = -normal;
       if (mesh.has_normals) smooth = triangle_normal(rtc, mesh);
@@ -256,15 +256,16 @@ struct Intersector::Embree {
     return to_float(normalize(transposed(instance.object_from_world, to_double(n))));
   }
 
-  // Of the triangle in the world: in an instance, at most this.
-  float longest_edge(const RTCHit& rtc, const CompiledMesh& mesh, const CompiledInstance* instance) const {
+  // The tilted_length in the world: in an instance, at most this.
+  float tilted_extent(const RTCHit& rtc, const CompiledMesh& mesh, const CompiledInstance* instance) const {
     const auto& [a, b, c] = scene.triangles[mesh.first_triangle + rtc.primID];
     const auto at = [&, first = mesh.first_vertex](std::uint32_t corner) {
       return to_vec3(scene.positions[first + corner]);
     };
     const vec3 u = at(b) - at(a), v = at(c) - at(a), w = v - u;
     const float longest = std::sqrt(std::max({dot(u, u), dot(v, v), dot(w, w)}));
-    return instance ? longest * instance->largest_scale : longest;
+    const float tilted = tilted_length({rtc.Ng_x, rtc.Ng_y, rtc.Ng_z}, longest);
+    return instance ? tilted * instance->largest_scale : tilted;
   }
 
   // By the hit's weights of the corners; not normalised.

@@ -142,7 +142,7 @@ LightPoint sample_mesh(const CompiledScene& scene, const CompiledLight& light, R
   }
   LightPoint point{p0 + b1 * e1 + b2 * e2, n, 1 / light.area};
   if (is_textured(light)) point.uv = triangle_uv(scene, mesh, triangle, b1, b2);
-  point.longest_edge = std::sqrt(std::max({dot(e1, e1), dot(e2, e2), dot(e2 - e1, e2 - e1)}));
+  point.tilted_length = tilted_length(n, std::sqrt(std::max({dot(e1, e1), dot(e2, e2), dot(e2 - e1, e2 - e1)})));
   return point;
 }
 

@@ -12,7 +12,7 @@ struct LightPoint {
   kernel::vec3 position, normal;
   float pdf = 0;              // of the direction to it, per steradian
   std::array<float, 2> uv{};  // the place on a light that is textured (see intersect/surface_uv.h)
-  float longest_edge = 0;     // of the triangle that it is on
+  float tilted_length = 0;    // of the triangle that it is on (see intersect/intersector.h)
 };
 
 // From p. Spheres without holes: uniform over the cone of directions in which they are seen (of the unit sphere, before

@@ -142,7 +142,7 @@ LightSample sample_area(const CompiledScene& scene, const CompiledLight& light, 
   const LightPoint q = sample_area_light(scene, light, p, numbers);
   // The shadow ray is to end short of the light's surface, also where it starts a little off another one.
   const vec3 towards = q.position - p, n = dot(q.normal, towards) < 0 ? q.normal : -q.normal;
-  const float extent = std::max(rounding_extent(p, length(towards)), rounding_extent(q.position, 0, q.longest_edge));
+  const float extent = std::max(rounding_extent(p, length(towards)), rounding_extent(q.position, 0, q.tilted_length));
   const vec3 to_light = leave_surface(q.position, n, 2 * extent) - p;
   const float distance = length(to_light);
   // What is as near as that is the light itself, of which p is a point: it does not shine on itself.

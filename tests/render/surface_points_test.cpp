@@ -116,6 +116,29 @@ TEST(Planes, DoNotShadowThemselves) {
   EXPECT_GT(met_by_twin, 500);
 }
 
+// Those that face along an axis are met exactly: rays start as near them as from small ones. So thin layers between
+// such planes stay what they are.
+TEST(Planes, AlongAnAxisKeepRaysNear) {
+  for (const bool in_instance : {false, true}) {
+    SceneDescription s = needle_scene();
+    const ShapeDescription plane = square_facing_y({0, 0, 0}, 1e6, 0.5f);
+    s.shapes = {};
+    if (in_instance) {
+      s.objects = {{"plane", {plane}}};
+      s.instances = {{"plane", rotate(30, {1, 2, 3}), {}}};
+    } else {
+      s.shapes = {plane};
+    }
+    const CompiledScene scene = compiled(s);
+    const Intersector intersector(scene);
+    const Transform turned = in_instance ? rotate(30, {1, 2, 3}) : Transform();
+    SurfaceHit hit;
+    ASSERT_TRUE(
+        intersector.nearest_surface({to_float(turned.point({0.3, 2, 0.1})), to_float(turned.vector({0, -1, 0}))}, hit));
+    EXPECT_LT(hit.extent, 2.5f);
+  }
+}
+
 // With normals at its corners a patch has them interpolated, on the side that the shading normal is on.
 TEST(Normals, OfPatchesAreInterpolated) {
   SceneDescription s = needle_scene();
