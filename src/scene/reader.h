@@ -44,8 +44,8 @@ class Reader {
     std::string_view text;
     std::string folder;
   };
-  // Reads a scene, file by file; errors are noted in the messages, and the scene is then of no use. The texts must
-  // outlive the reader, and the reader the messages that it noted.
+  // Reads a scene, file by file; errors are noted in the messages, and the scene then holds what could be read of it.
+  // The texts must outlive the reader, and the reader the messages that it noted.
   SceneDescription read(const std::vector<File>& files);
 
  private:
